@@ -1,0 +1,26 @@
+find_package(GTest REQUIRED)
+include(GoogleTest)
+
+# fpz_add_test(<name> SOURCES <file>... [LIBS <target>...] [LABELS <label>...])
+# One GoogleTest executable; each of its cases becomes a ctest entry "<name>/<Suite>.<Case>". Links fpz::model and
+# GTest::gtest_main. FPZ_SOURCE_DIR and FPZ_DATA_DIR are defined as paths for the sources.
+function(fpz_add_test name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;LIBS;LABELS")
+  if(NOT arg_SOURCES)
+    message(FATAL_ERROR "fpz_add_test(${name}): no SOURCES")
+  endif()
+  if(arg_UNPARSED_ARGUMENTS)
+    message(FATAL_ERROR "fpz_add_test(${name}): unknown arguments: ${arg_UNPARSED_ARGUMENTS}")
+  endif()
+  add_executable(${name} ${arg_SOURCES})
+  target_link_libraries(${name} PRIVATE fpz::model ${arg_LIBS} GTest::gtest_main)
+  target_compile_definitions(${name} PRIVATE
+    FPZ_SOURCE_DIR="${PROJECT_SOURCE_DIR}" FPZ_DATA_DIR="${PROJECT_SOURCE_DIR}/data")
+  fpz_set_warnings(${name})
+  set(properties)
+  if(arg_LABELS)
+    string(REPLACE ";" "\\;" labels "${arg_LABELS}")
+    set(properties PROPERTIES LABELS "${labels}")
+  endif()
+  gtest_discover_tests(${name} TEST_PREFIX "${name}/" DISCOVERY_MODE PRE_TEST ${properties})
+endfunction()
