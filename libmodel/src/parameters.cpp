@@ -1,0 +1,149 @@
+#include "fpz/parameters.hpp"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <utility>
+
+namespace fpz {
+namespace {
+
+constexpr double degree = 3.14159265358979323846 / 180.0;
+
+/// Shortest text that reads back as the same number, so that a message shows what was given.
+std::string exact(double x) {
+  std::array<char, 32> text{};
+  const auto result = std::to_chars(text.data(), text.data() + text.size(), x);
+  return {text.data(), result.ptr};
+}
+
+/// Seven significant digits, for computed bounds.
+std::string rounded(double x) {
+  std::array<char, 32> text{};
+  const auto result = std::to_chars(text.data(), text.data() + text.size(), x, std::chars_format::general, 7);
+  return {text.data(), result.ptr};
+}
+
+double normal_modulus(const Parameters& p, Setting setting) {
+  const double e = p.young_modulus;
+  const double nu = p.poisson_ratio;
+  if (setting == Setting::plane_stress) return e / (1.0 - nu * nu);
+  return e * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu));
+}
+
+class Checker {
+ public:
+  /// Records an error for each value that is not finite or not positive; true if the value may be used further.
+  bool positive(const char* field, double v) {
+    if (!finite(field, v)) return false;
+    return require(v > 0.0, field, v, "must be > 0");
+  }
+
+  bool finite(const char* field, double v) { return require(std::isfinite(v), field, v, "must be finite"); }
+
+  bool require(bool holds, const char* field, double v, std::string constraint) {
+    if (!holds) result.errors.push_back({field, v, std::move(constraint)});
+    return holds;
+  }
+
+  void warn(const char* field, double v, std::string text) { result.warnings.push_back({field, v, std::move(text)}); }
+
+  Validation result;
+};
+
+}  // namespace
+
+std::string Validation::report() const {
+  std::string text;
+  const auto append = [&text](const char* kind, const std::vector<Violation>& list) {
+    for (const Violation& v : list) {
+      text += kind;
+      text += ": " + v.field + " = " + exact(v.value) + ": " + v.constraint + '\n';
+    }
+  };
+  append("error", errors);
+  append("warning", warnings);
+  return text;
+}
+
+double snap_back_length(const Parameters& p, Setting setting) {
+  return normal_modulus(p, setting) * p.delta0 / p.tensile_strength;
+}
+
+double uniaxial_tensile_strength(const Parameters& p) {
+  const double tan_phi = std::tan(p.friction_angle_deg * degree);
+  const double cos_phi = std::cos(p.friction_angle_deg * degree);
+  const double c0 = p.cohesion;
+  const double apex = c0 - p.tensile_strength * tan_phi;
+  // 1. The plane normal to the load is critical as long as the Mohr circle at sigma_t0 has r <= A tan(phi).
+  if (0.5 * p.tensile_strength <= apex * tan_phi) return p.tensile_strength;
+  // 2. Otherwise sqrt(r^2 + A^2) = c0 cos(phi) - p sin(phi) with p = r = s/2, squared:
+  //    r^2 + 2 c0 tan(phi) r + A^2/cos^2(phi) - c0^2 = 0, whose positive root is
+  //    r = sqrt(c0^2 - A^2)/cos(phi) - c0 tan(phi).
+  const double r = std::sqrt((c0 - apex) * (c0 + apex)) / cos_phi - c0 * tan_phi;
+  return 2.0 * r;
+}
+
+Validation validate(const Parameters& p, Setting setting) {
+  Checker check;
+
+  // 1. Each value by itself, in the order of the struct.
+  const bool e_ok = check.positive("young_modulus", p.young_modulus);
+  const bool nu_ok = check.finite("poisson_ratio", p.poisson_ratio) &&
+                     check.require(p.poisson_ratio > -1.0 && p.poisson_ratio < 0.5, "poisson_ratio", p.poisson_ratio,
+                                   "must be > -1 and < 0.5");
+  check.positive("density", p.density);
+  const bool strength_ok = check.positive("tensile_strength", p.tensile_strength);
+  const bool cohesion_ok = check.positive("cohesion", p.cohesion);
+  const bool phi_ok = check.finite("friction_angle_deg", p.friction_angle_deg) &&
+                      check.require(p.friction_angle_deg > 0.0 && p.friction_angle_deg < 90.0, "friction_angle_deg",
+                                    p.friction_angle_deg, "must be > 0 and < 90");
+  const bool psi_ok =
+      check.finite("dilation_angle_deg", p.dilation_angle_deg) &&
+      check.require(p.dilation_angle_deg >= 0.0, "dilation_angle_deg", p.dilation_angle_deg, "must be >= 0");
+  const bool delta0_ok = check.positive("delta0", p.delta0);
+  check.positive("normal_stiffness", p.normal_stiffness);
+  check.positive("shear_stiffness", p.shear_stiffness);
+  const bool length_ok = check.positive("rve_length", p.rve_length);
+
+  // 2. Values against each other, where each of them makes sense.
+  if (phi_ok && psi_ok) {
+    check.require(p.dilation_angle_deg <= p.friction_angle_deg, "dilation_angle_deg", p.dilation_angle_deg,
+                  "must be <= friction_angle_deg = " + exact(p.friction_angle_deg));
+  }
+  bool surface_ok = strength_ok && cohesion_ok && phi_ok;
+  if (surface_ok) {
+    const double bound = p.tensile_strength * std::tan(p.friction_angle_deg * degree);
+    surface_ok = check.require(p.cohesion > bound, "cohesion", p.cohesion,
+                               "must be > tensile_strength * tan(friction_angle_deg) = " + rounded(bound));
+  }
+
+  // 3. Doubtful values.
+  if (e_ok && nu_ok && strength_ok && delta0_ok && length_ok) {
+    const double bound = snap_back_length(p, setting);
+    if (p.rve_length >= bound) {
+      const char* modulus = setting == Setting::plane_stress ? "E/(1 - nu^2)" : "(lambda + 2 mu)";
+      check.warn("rve_length", p.rve_length,
+                 "should be < " + std::string(modulus) + " * delta0 / tensile_strength = " + rounded(bound) +
+                     ": mode I snaps back under strain control");
+    }
+  }
+  if (psi_ok && p.dilation_angle_deg == 0.0) {
+    check.warn("dilation_angle_deg", p.dilation_angle_deg,
+               "should be > 0: pure opening has no solution without dilation");
+  }
+  if (surface_ok) {
+    const double strength = uniaxial_tensile_strength(p);
+    if (strength < p.tensile_strength) {
+      const double tan_phi = std::tan(p.friction_angle_deg * degree);
+      const double mode_one = p.tensile_strength * (tan_phi + 0.5 / tan_phi);
+      check.warn("cohesion", p.cohesion,
+                 "should be >= tensile_strength * (tan(phi) + 1/(2 tan(phi))) = " + rounded(mode_one) +
+                     ": uniaxial tension cracks on an inclined plane at " + rounded(strength) +
+                     ", below tensile_strength = " + exact(p.tensile_strength));
+    }
+  }
+  return std::move(check.result);
+}
+
+}  // namespace fpz
