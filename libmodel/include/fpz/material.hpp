@@ -1,0 +1,124 @@
+// Constants of the bulk and of the cohesive law, derived once from the parameters.
+#pragma once
+
+#include <cmath>
+
+#include "fpz/parameters.hpp"
+#include "fpz/types.hpp"
+
+namespace fpz {
+
+/// Linear elastic bulk, sigma = lambda tr(eps) I + 2 mu eps on the stored components.
+/// For plane stress `lambda` is the condensed 2 lambda mu / (lambda + 2 mu), so that the in-plane law keeps this form.
+template <class P>
+struct Elasticity {
+  P lambda{};
+  P mu{};
+  P nu{};
+
+  template <class T, int Dim>
+  [[nodiscard]] Tensor<T, Dim> stress(const Tensor<T, Dim>& strain) const {
+    Tensor<T, Dim> s;
+    if constexpr (Dim == 2) {
+      const T pressure = lambda * (strain[0] + strain[1]);
+      s << pressure + 2.0 * mu * strain[0], pressure + 2.0 * mu * strain[1], 2.0 * mu * strain[2];
+    } else {
+      const T pressure = lambda * (strain[0] + strain[1] + strain[2]);
+      const P m2 = 2.0 * mu;
+      s << pressure + m2 * strain[0], pressure + m2 * strain[1], pressure + m2 * strain[2], m2 * strain[3],
+          m2 * strain[4], m2 * strain[5];
+    }
+    return s;
+  }
+};
+
+/// Constants of the mixed-mode cohesive law (eq 44-50).
+template <class P>
+struct CohesiveLaw {
+  P kn{};                ///< Kn, Pa/m
+  P ks{};                ///< Ks, Pa/m
+  P tensile_strength{};  ///< sigma_t0, Pa
+  P cohesion{};          ///< c0, Pa
+  P tan_phi{};
+  P tan_psi{};
+  P delta0{};  ///< m
+  P apex{};    ///< A = c0 - sigma_t0 tan phi, Pa: half the distance scale of the yield hyperbola
+};
+
+/// Compliance in series with the cohesive zone, in the local frame: jump = drive - compliance * traction.
+/// The elastic bulk of an RVE gives B^-1 = H diag(1/(lambda+2mu), 1/mu, 1/mu) (model.md 1); zero means the jump itself
+/// is driven.
+template <class P>
+struct SeriesCompliance {
+  P normal{};  ///< m/Pa
+  P shear{};   ///< m/Pa
+};
+
+/// Everything an update needs to know about the material.
+template <class P>
+struct Material {
+  Setting setting = Setting::plane_strain;
+  Elasticity<P> bulk;
+  CohesiveLaw<P> law;
+  SeriesCompliance<P> series;
+  P rve_length{};  ///< H, m
+  P sin_phi{};
+  P cos_phi{};
+};
+
+template <class P>
+[[nodiscard]] CohesiveLaw<P> make_cohesive_law(const BasicParameters<P>& p) {
+  using std::tan;
+  constexpr double degree = 3.14159265358979323846 / 180.0;
+  CohesiveLaw<P> law;
+  law.kn = p.normal_stiffness;
+  law.ks = p.shear_stiffness;
+  law.tensile_strength = p.tensile_strength;
+  law.cohesion = p.cohesion;
+  law.tan_phi = tan(p.friction_angle_deg * degree);
+  law.tan_psi = tan(p.dilation_angle_deg * degree);
+  law.delta0 = p.delta0;
+  law.apex = p.cohesion - p.tensile_strength * law.tan_phi;
+  return law;
+}
+
+/// Replaces the RVE length H (m); everything else is kept. Cheap: two divisions.
+template <class P>
+void set_rve_length(Material<P>& m, const P& length) {
+  m.rve_length = length;
+  m.series.normal = length / (m.bulk.lambda + 2.0 * m.bulk.mu);
+  m.series.shear = length / m.bulk.mu;
+}
+
+/// Derives the constants. The parameters must have passed validate(); this function does not check them again.
+template <class P>
+[[nodiscard]] Material<P> make_material(const BasicParameters<P>& p, Setting setting) {
+  using std::cos;
+  using std::sin;
+  constexpr double degree = 3.14159265358979323846 / 180.0;
+  Material<P> m;
+  m.setting = setting;
+  m.bulk.nu = p.poisson_ratio;
+  m.bulk.mu = p.young_modulus / (2.0 * (1.0 + p.poisson_ratio));
+  m.bulk.lambda = p.young_modulus * p.poisson_ratio / ((1.0 + p.poisson_ratio) * (1.0 - 2.0 * p.poisson_ratio));
+  if (setting == Setting::plane_stress)
+    m.bulk.lambda = p.young_modulus * p.poisson_ratio / (1.0 - p.poisson_ratio * p.poisson_ratio);
+  m.law = make_cohesive_law(p);
+  m.sin_phi = sin(p.friction_angle_deg * degree);
+  m.cos_phi = cos(p.friction_angle_deg * degree);
+  set_rve_length(m, p.rve_length);
+  return m;
+}
+
+/// The plain values of a law, compliance or material that carries derivatives: solvers iterate on these.
+template <class P>
+[[nodiscard]] CohesiveLaw<double> values(const CohesiveLaw<P>& a) {
+  return {value(a.kn),      value(a.ks),      value(a.tensile_strength), value(a.cohesion),
+          value(a.tan_phi), value(a.tan_psi), value(a.delta0),           value(a.apex)};
+}
+template <class P>
+[[nodiscard]] SeriesCompliance<double> values(const SeriesCompliance<P>& a) {
+  return {value(a.normal), value(a.shear)};
+}
+
+}  // namespace fpz

@@ -1,0 +1,63 @@
+// How an update is integrated, and what it reports.
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "fpz/types.hpp"
+
+namespace fpz {
+
+enum class Method : std::uint8_t {
+  paper,     ///< eq 51-61 as printed with its slips repaired: semi-implicit, baseline for comparison
+  implicit,  ///< backward Euler on the scaled hyperbola, traction continuity eliminated; first order, always solvable
+  accurate   ///< adaptive stiffly stable Rosenbrock method of order 4(3) on the rate equations, events located
+};
+
+[[nodiscard]] constexpr const char* to_string(Method m) {
+  switch (m) {
+    case Method::paper:
+      return "paper";
+    case Method::implicit:
+      return "implicit";
+    case Method::accurate:
+      return "accurate";
+  }
+  return "unknown";
+}
+
+/// The integrator of that name, or nothing.
+[[nodiscard]] constexpr std::optional<Method> method_from(std::string_view name) {
+  for (const Method m : {Method::paper, Method::implicit, Method::accurate}) {
+    if (name == to_string(m)) return m;
+  }
+  return std::nullopt;
+}
+
+struct Options {
+  Method method = Method::accurate;
+  /// accurate: error of traction over sigma_t0 and of D along a whole path. paper: eq 62 (the paper uses 1e-4).
+  /// implicit: unused.
+  double tolerance = 1e-6;
+  /// paper: limit of the traction-continuity loop (eq 57-61).
+  int max_iterations = 100;
+  /// accurate: limit of sub-steps in one update.
+  int max_substeps = 20000;
+  /// Onset: 0 takes the closed form (model.md 3.3); otherwise the paper's scan (section 4.1) at this resolution in
+  /// degrees.
+  double scan_resolution_deg = 0.0;
+  /// Of two equally critical conjugate planes, take the one whose normal is closer to this direction. Zero: the fixed
+  /// rule of onset.hpp.
+  Vec<double, 3> preferred_normal = Vec<double, 3>::Zero();
+};
+
+struct Report {
+  Status status = Status::ok;
+  int iterations = 0;  ///< Newton iterations (implicit), traction iterations (paper), steps tried (accurate)
+  int substeps = 0;    ///< accepted sub-steps (accurate); 1 otherwise
+  bool onset = false;  ///< the fracture appeared in this update
+
+  [[nodiscard]] bool ok() const { return status == Status::ok; }
+};
+
+}  // namespace fpz

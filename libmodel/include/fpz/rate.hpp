@@ -1,0 +1,195 @@
+// The rate problem of a cracked point on its yield surface, as an autonomous ODE.
+//
+// With the drive q moving at a constant rate q' (per unit of the increment), y = (tau_s, a) obeys (model.md 3.1, eq
+// 63-67)
+//   c_n dtau_n/dtau_s . tau_s' + (m_n/D - w tau_n c_n,w / delta0) a' = q_n'
+//   c_s tau_s'                 + (tau_s/D - w tau_s c_s,w / delta0) a' = q_s',      D = m_n + |tau_s|.
+// Eliminating tau_s' leaves  h a' = numerator;  h > 0 is exactly uniqueness of the rate problem (no snap-back),
+// numerator > 0 is loading.
+#pragma once
+
+#include "fpz/cohesive_state.hpp"
+
+namespace fpz::detail {
+
+/// Which smooth piece of the rate equations holds. `shear_sign` is used with one shear component only.
+struct Branch {
+  bool tension = true;
+  double shear_sign = 1.0;
+};
+
+template <class T, int NS>
+struct RatePoint {
+  using Shear = Vec<T, NS>;
+  T w;
+  HyperbolaPoint<T> hyp;
+  ScaledCompliance<T> c;
+  T shear;         ///< |tau_s| (signed continuation of it with one component)
+  T inv;           ///< 1/(m_n + |tau_s|)
+  Shear unit;      ///< d|tau_s|/dtau_s
+  Shear normal_s;  ///< dtau_n/dtau_s
+  T m12;           ///< coefficient of a' in the normal equation
+  Shear m22;       ///< coefficient of a' in the shear equation
+  T h;             ///< rate modulus: > 0 where the rate problem has one solution
+  T ratio;         ///< c_n / c_s
+};
+
+/// Coefficients of the rate equations at (tau_s, w). `direction`: where tau_s heads, used only at tau_s = 0.
+template <int NS, class T, class P>
+[[nodiscard]] RatePoint<T, NS> rate_point(const CohesiveLaw<P>& law, const SeriesCompliance<P>& series,
+                                          const Branch& branch, const Vec<T, NS>& tau_s, const T& w,
+                                          const Vec<T, NS>& direction) {
+  using std::sqrt;
+  RatePoint<T, NS> r;
+  r.w = w;
+  const T s2 = squared_norm(tau_s);
+  r.hyp = hyperbola(law, s2);
+  r.c = scaled_compliance(law, series, w, branch.tension);
+  if constexpr (NS == 1) {
+    r.unit[0] = T(branch.shear_sign);
+    r.shear = branch.shear_sign * tau_s[0];
+  } else if (value(s2) > 0.0) {
+    r.shear = sqrt(s2);
+    r.unit = tau_s / r.shear;
+  } else {
+    const T d2 = squared_norm(direction);
+    r.shear = T(0.0);
+    r.unit = value(d2) > 0.0 ? Vec<T, NS>(direction / T(sqrt(d2))) : Vec<T, NS>(Vec<T, NS>::Constant(T(0.0)));
+  }
+  const T sum = r.hyp.flow_n + r.shear;
+  r.inv = value(sum) > 0.0 ? T(1.0 / sum) : T(0.0);
+  r.normal_s = tau_s * T(-1.0 / (law.tan_phi * r.hyp.radius));
+  const T w_a = integrity_slope(w, law.delta0);
+  r.m12 = r.hyp.flow_n * r.inv + w_a * r.c.normal_slope * r.hyp.normal;
+  r.m22 = tau_s * T(r.inv + w_a * r.c.shear_slope);
+  r.ratio = r.c.normal / r.c.shear;
+  r.h = r.m12;
+  for (int k = 0; k < NS; ++k) r.h -= r.ratio * r.normal_s[k] * r.m22[k];
+  return r;
+}
+
+/// h a' for a drive rate; positive means plastic loading.
+template <class T, int NS>
+[[nodiscard]] T loading(const RatePoint<T, NS>& r, const T& rate_n, const Vec<T, NS>& rate_s) {
+  T n = rate_n;
+  for (int k = 0; k < NS; ++k) n -= r.ratio * r.normal_s[k] * rate_s[k];
+  return n;
+}
+
+template <class T, int NS>
+struct Rates {
+  Vec<T, NS> tau_s;
+  T a;
+};
+
+/// Solves the 1+NS rate equations for a right-hand side (normal, shear).
+template <class T, int NS>
+[[nodiscard]] Rates<T, NS> solve_rates(const RatePoint<T, NS>& r, const T& rhs_n, const Vec<T, NS>& rhs_s) {
+  Rates<T, NS> f;
+  f.a = loading(r, rhs_n, rhs_s) / r.h;
+  for (int k = 0; k < NS; ++k) f.tau_s[k] = (rhs_s[k] - r.m22[k] * f.a) / r.c.shear;
+  return f;
+}
+
+/// Jacobian d(f)/d(tau_s, a) of the rates f: J = -M^-1 (dM/dy . f) with the coefficient matrix M of the rate equations.
+template <class T, int NS, class P>
+[[nodiscard]] Mat<T, NS + 1, NS + 1> rate_jacobian(const CohesiveLaw<P>& law, const RatePoint<T, NS>& r,
+                                                   const Vec<T, NS>& tau_s, const Rates<T, NS>& f) {
+  const T w_a = integrity_slope(r.w, law.delta0);
+  const T w_aa = integrity_slope(w_a, law.delta0);
+  const P tan2_psi = law.tan_psi * law.tan_psi;
+  T s_dot = T(0.0);
+  T g_dot = T(0.0);
+  for (int k = 0; k < NS; ++k) {
+    s_dot += tau_s[k] * f.tau_s[k];
+    g_dot += r.normal_s[k] * f.tau_s[k];
+  }
+  const T inv2 = r.inv * r.inv;
+  const T radius2 = r.hyp.radius * r.hyp.radius;
+  const T curvature = -1.0 / (law.tan_phi * r.hyp.radius);
+  Mat<T, NS + 1, NS + 1> jac;
+  for (int j = 0; j <= NS; ++j) {  // column j: derivative with respect to y_j of the products M(y) f
+    T dn;
+    Vec<T, NS> ds;
+    if (j < NS) {
+      const T flow_j = -tan2_psi * r.normal_s[j];
+      const T fraction_j = (flow_j * r.shear - r.hyp.flow_n * r.unit[j]) * inv2;
+      const T inv_j = -(flow_j + r.unit[j]) * inv2;
+      dn = r.c.normal * curvature * (f.tau_s[j] - tau_s[j] * s_dot / radius2) +
+           f.a * (fraction_j + w_a * r.c.normal_slope * r.normal_s[j]);
+      for (int k = 0; k < NS; ++k) {
+        ds[k] = f.a * tau_s[k] * inv_j;
+        if (k == j) ds[k] += f.a * (r.inv + w_a * r.c.shear_slope);
+      }
+    } else {
+      dn = r.c.normal_slope * w_a * g_dot + f.a * w_aa * r.c.normal_slope * r.hyp.normal;
+      for (int k = 0; k < NS; ++k) ds[k] = w_a * r.c.shear_slope * f.tau_s[k] + f.a * w_aa * r.c.shear_slope * tau_s[k];
+    }
+    const Rates<T, NS> column = solve_rates<T, NS>(r, T(-dn), Vec<T, NS>(-ds));
+    for (int k = 0; k < NS; ++k) jac(k, j) = column.tau_s[k];
+    jac(NS, j) = column.a;
+  }
+  return jac;
+}
+
+/// Fraction x >= 0 at which the straight path (n, s) + x (dn, ds) leaves  |s|^2 + a^2 <= (c - n tan_phi)^2  on the
+/// physical branch, started inside (or on the surface, to rounding). Negative: it never leaves. Closed form.
+template <int NS, class T, class P>
+[[nodiscard]] T exit_fraction(const P& tan_phi, const T& c, const T& a, const T& n, const Vec<T, NS>& s, const T& dn,
+                              const Vec<T, NS>& ds) {
+  using std::sqrt;
+  const T l = c - n * tan_phi;
+  const T dl = -dn * tan_phi;
+  T qa = -dl * dl;
+  T qb = -l * dl;
+  T qc = a * a - l * l;
+  for (int k = 0; k < NS; ++k) {
+    qa += ds[k] * ds[k];
+    qb += s[k] * ds[k];
+    qc += s[k] * s[k];
+  }
+  const T disc = qb * qb - qa * qc;  // qa x^2 + 2 qb x + qc = 0
+  if (value(disc) < 0.0) return T(-1.0);
+  if (value(qb) > 0.0) return value(qc) > 0.0 ? T(0.0) : T(-qc / (qb + sqrt(disc)));
+  if (value(qa) <= 0.0 || value(disc) == 0.0) return T(-1.0);
+  return (sqrt(disc) - qb) / qa;
+}
+
+/// First fraction in [0, 1] at which the elastic drive q0 + x dq reaches the yield surface, or a negative value.
+/// Scaled tractions in tension, plain ones in compression, so that w = 0 is no special case; the path has a kink where
+/// q_n = 0.
+template <int Dim, class T, class P>
+[[nodiscard]] T yield_entry(const CohesiveLaw<P>& law, const SeriesCompliance<P>& series, const T& w,
+                            const Vec<T, Dim>& q0, const Vec<T, Dim>& dq) {
+  constexpr int NS = Dim - 1;
+  T from = T(0.0);
+  T to = T(1.0);
+  bool tension = value(q0[0]) > 0.0 || (value(q0[0]) == 0.0 && value(dq[0]) >= 0.0);
+  const double end_n = value(q0[0]) + value(dq[0]);
+  const bool crosses = tension ? end_n < 0.0 : end_n > 0.0;
+  for (int piece = 0; piece < (crosses ? 2 : 1); ++piece) {
+    if (crosses) {
+      const T kink = -q0[0] / dq[0];
+      (piece == 0 ? to : from) = kink;
+      if (piece == 1) {
+        to = T(1.0);
+        tension = !tension;
+      }
+    }
+    const T scale = tension ? T(1.0) : w;
+    const T cn = tension ? T(1.0 / law.kn + w * series.normal) : T(1.0 / law.kn + series.normal);
+    const T cs = 1.0 / law.ks + w * series.shear;
+    const Vec<T, Dim> start = q0 + dq * from;
+    Vec<T, NS> s, ds;
+    for (int k = 0; k < NS; ++k) {
+      s[k] = scale * start[k + 1] / cs;
+      ds[k] = scale * dq[k + 1] / cs;
+    }
+    const T x = exit_fraction<NS>(law.tan_phi, T(scale * law.cohesion), T(scale * law.apex), T(start[0] / cn), s,
+                                  T(dq[0] / cn), ds);
+    if (value(x) >= 0.0 && value(from) + value(x) <= value(to)) return from + x;
+  }
+  return T(-1.0);
+}
+
+}  // namespace fpz::detail

@@ -1,0 +1,174 @@
+// The `accurate` integrator: elastic phases in closed form, yielding phases by the adaptive Rosenbrock method RODAS of
+// order 4(3) (Hairer & Wanner, Solving Ordinary Differential Equations II, section IV.7; stiffly accurate and L-stable)
+// on the rate equations of rate.hpp. The yield condition and traction continuity hold to rounding at every accepted
+// step, because the ODE runs on the yield surface itself.
+#pragma once
+
+#include <Eigen/LU>
+#include <array>
+
+#include "fpz/options.hpp"
+#include "fpz/rate.hpp"
+
+namespace fpz::detail {
+
+struct Rodas {
+  static constexpr int stages = 6;
+  static constexpr double gamma = 0.25;
+  static constexpr double a[6][5] = {
+      {},
+      {1.544000000000000},
+      {0.9466785280815826, 0.2557011698983284},
+      {3.314825187068521, 2.896124015972201, 0.9986419139977817},
+      {1.221224509226641, 6.019134481288629, 12.53708332932087, -0.6878860361058950},
+      {1.221224509226641, 6.019134481288629, 12.53708332932087, -0.6878860361058950, 1.0}};
+  static constexpr double c[6][5] = {
+      {},
+      {-5.668800000000000},
+      {-2.430093356833875, -0.2063599157091915},
+      {-0.1073529058151375, -9.594562251023355, -20.47028614809616},
+      {7.496443313967647, -10.24680431464352, -33.99990352819905, 11.70890893206160},
+      {8.083246795921522, -7.981132988064893, -31.52159432874371, 16.31930543123136, -6.058818238834054}};
+};
+
+/// One yielding phase: state y = (tau_s, a) relative to the integrity at its begin, driven at constant rate.
+template <class T, int Dim, class P>
+class YieldingPhase {
+ public:
+  static constexpr int NS = Dim - 1;
+  using Y = Vec<T, Dim>;  ///< (tau_s components, a)
+  using Shear = Vec<T, NS>;
+
+  YieldingPhase(const CohesiveLaw<P>& law, const SeriesCompliance<P>& series, const T& w_begin, const Vec<T, Dim>& rate)
+      : law_(law), series_(series), w_begin_(w_begin), rate_n_(rate[0]), rate_s_(rate.template tail<NS>()) {}
+
+  Branch branch;
+
+  [[nodiscard]] static Shear shear_of(const Y& y) { return y.template head<NS>(); }
+  [[nodiscard]] T integrity(const Y& y) const { return w_begin_ * integrity_ratio(y[NS], law_.delta0); }
+  [[nodiscard]] RatePoint<T, NS> point(const Y& y) const {
+    return rate_point<NS>(law_, series_, branch, shear_of(y), integrity(y), rate_s_);
+  }
+  [[nodiscard]] T loading_at(const RatePoint<T, NS>& r) const { return loading(r, rate_n_, rate_s_); }
+  [[nodiscard]] static Y pack(const Rates<T, NS>& f) {
+    Y y;
+    y << f.tau_s, f.a;
+    return y;
+  }
+  [[nodiscard]] Y rates(const RatePoint<T, NS>& r) const { return pack(solve_rates(r, rate_n_, rate_s_)); }
+  [[nodiscard]] const Shear& rate_s() const { return rate_s_; }
+
+  /// Dissipated energy per unit of the increment at a point with inelastic rate a'.
+  [[nodiscard]] T power(const RatePoint<T, NS>& r, const T& a_rate) const {
+    return r.w * a_rate * dissipation_density(law_, r.hyp, T(r.shear * r.shear));
+  }
+
+  struct Step {
+    bool defined = false;  ///< false: a stage met h <= 0 (the rate problem has no unique solution there)
+    Y y;
+    Y error;
+  };
+
+  /// One RODAS step of size h from y0, whose coefficients `r0` and rates `f0` are given.
+  [[nodiscard]] Step advance(const Y& y0, const RatePoint<T, NS>& r0, const Y& f0, const T& h) const {
+    Step out;
+    Rates<T, NS> f;
+    f.tau_s = f0.template head<NS>();
+    f.a = f0[NS];
+    using Matrix = Mat<T, Dim, Dim>;
+    Matrix e = -rate_jacobian(law_, r0, shear_of(y0), f);
+    const T diagonal = 1.0 / (h * Rodas::gamma);
+    for (int k = 0; k < Dim; ++k) e(k, k) += diagonal;
+    const Matrix inverse = e.inverse();
+    std::array<Y, Rodas::stages> u;
+    for (int i = 0; i < Rodas::stages; ++i) {
+      Y yi = y0;
+      Y rhs = f0;
+      if (i > 0) {
+        for (int j = 0; j < i; ++j) yi += u[j] * T(Rodas::a[i][j]);
+        const RatePoint<T, NS> r = point(yi);
+        if (!(value(r.h) > 0.0)) return out;
+        rhs = rates(r);
+        for (int j = 0; j < i; ++j) rhs += u[j] * T(Rodas::c[i][j] / h);
+      }
+      u[i] = inverse * rhs;
+      if (i == Rodas::stages - 1) out.y = yi + u[i];
+    }
+    out.error = u[Rodas::stages - 1];
+    out.defined = std::isfinite(value(out.y[NS]));
+    return out;
+  }
+
+  /// Error of a step against the tolerance on t/sigma_t0 and D. The normal jump keeps a weight when w -> 0, because the
+  /// position of a closed crack depends on it.
+  [[nodiscard]] double error_norm(const RatePoint<T, NS>& r, const Y& error) const {
+    const double w = value(r.w);
+    const double contact = value(r.c.normal) / (1.0 / value(law_.kn) + value(series_.normal) + 1e-300);
+    const double weight = std::max(w, contact) / value(law_.tensile_strength);
+    double shear2 = 0.0;
+    double normal = 0.0;
+    for (int k = 0; k < NS; ++k) {
+      shear2 += value(error[k]) * value(error[k]);
+      normal += value(r.normal_s[k]) * value(error[k]);
+    }
+    const double level = (std::abs(value(r.hyp.normal)) + value(r.shear)) / value(law_.tensile_strength);
+    const double damage_error = w * std::abs(value(error[NS])) / value(law_.delta0) * std::max(1.0, level);
+    return std::max({std::sqrt(shear2) * weight, std::abs(normal) * weight, damage_error});
+  }
+
+  /// Smooth functions that are positive while the branch holds: loading, sign of tau_n, sign of the shear.
+  static constexpr int event_count = 3;
+  [[nodiscard]] T event(int which, const RatePoint<T, NS>& r) const {
+    if (which == 0) return loading_at(r);
+    if (which == 1) return branch.tension ? r.hyp.normal : T(-r.hyp.normal);
+    return NS == 1 ? r.shear : T(1.0);
+  }
+
+ private:
+  const CohesiveLaw<P>& law_;
+  const SeriesCompliance<P>& series_;
+  T w_begin_;
+  T rate_n_;
+  Shear rate_s_;
+};
+
+/// Step length at which event `which` passes zero inside (0, h), and the derivative carried over to duals.
+template <class T, int Dim, class P>
+[[nodiscard]] T locate_event(const YieldingPhase<T, Dim, P>& phase, const Vec<T, Dim>& y0,
+                             const RatePoint<T, Dim - 1>& r0, const Vec<T, Dim>& f0, double h, int which) {
+  const auto at = [&](const T& x) { return phase.event(which, phase.point(phase.advance(y0, r0, f0, x).y)); };
+  double lo = 0.0;
+  double hi = h;
+  double e_lo = value(phase.event(which, r0));
+  double e_hi = value(at(T(h)));
+  const double scale = std::max(std::abs(e_lo), std::abs(e_hi));
+  double x = h;
+  int side = 0;
+  for (int k = 0; k < 100 && hi - lo > 1e-15 * h; ++k) {  // Illinois
+    x = (e_lo * hi - e_hi * lo) / (e_lo - e_hi);
+    if (!(x > lo && x < hi)) x = 0.5 * (lo + hi);
+    const double e = value(at(T(x)));
+    if (std::abs(e) <= 1e-14 * scale) break;
+    if (e > 0.0) {
+      lo = x;
+      e_lo = e;
+      if (side == 1) e_hi *= 0.5;
+      side = 1;
+    } else {
+      hi = x;
+      e_hi = e;
+      if (side == -1) e_lo *= 0.5;
+      side = -1;
+    }
+  }
+  if constexpr (std::floating_point<T>) {
+    return x;
+  } else {
+    const double dx = 1e-6 * std::max(x, 1e-9 * h);
+    const double slope = (value(at(T(x + dx))) - value(at(T(x - dx)))) / (2.0 * dx);
+    const T e = at(T(x));
+    return slope != 0.0 ? T(T(x) - (e - value(e)) / slope) : T(x);
+  }
+}
+
+}  // namespace fpz::detail
