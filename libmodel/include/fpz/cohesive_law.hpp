@@ -25,7 +25,7 @@ template <int Dim>
   constexpr int NS = Dim - 1;
   const Vec<double, Dim> rate = q1 - q0;
   const double x = std::max(yield_entry<Dim>(law, series, w, q0, rate), 0.0);
-  const double cs = 1.0 / law.ks + w * series.shear;
+  const double cs = law.flexibility_s + w * series.shear;
   Vec<double, NS> tau_s = (q0 + x * rate).template tail<NS>() / cs;
   const Vec<double, NS> rate_s = rate.template tail<NS>();
   Branch branch;
@@ -35,7 +35,7 @@ template <int Dim>
   Entry e;
   e.unique = r.h > 0.0;
   e.s = std::abs(r.shear);
-  e.density = dissipation_density(law, r.hyp, r.shear * r.shear);
+  e.density = dissipation_density(law, r.hyp, r.shear, r.inv);
   const double load = loading(r, rate[0], rate_s) * (1.0 - x);
   if (e.unique && load > 0.0) {
     e.a = load / r.h;
@@ -43,17 +43,6 @@ template <int Dim>
     e.s = tau_s.norm();
   }
   return e;
-}
-
-/// Is the rate problem unique at a point of the yield surface? Checked with the shear magnitude only, which is enough
-/// by isotropy.
-[[nodiscard]] inline bool unique_at(const CohesiveLaw<double>& law, const SeriesCompliance<double>& series, double s,
-                                    double w) {
-  Branch branch;
-  branch.tension = hyperbola(law, s * s).normal >= 0.0;
-  Vec<double, 1> tau_s;
-  tau_s[0] = s;
-  return rate_point<1>(law, series, branch, tau_s, w, tau_s).h > 0.0;
 }
 
 /// Backward Euler over the drive d0 -> d1. The solve runs on plain values; one Newton step in T carries derivatives
@@ -110,38 +99,40 @@ template <class T, int Dim, class P>
     report.status = root.status;
     return report;
   }
-  if (!unique_at(lawv, seriesv, root.s, wv * integrity_ratio(root.a, lawv.delta0))) {
+  if (!(root.system.rate_modulus() > 0.0)) {
     report.status = Status::snap_back;
     return report;
   }
 
   T s = T(root.s);
   T a = T(root.a);
-  if constexpr (!std::floating_point<T>) {
+  ReturnSystem<T> e;
+  if constexpr (std::floating_point<T>) {
+    e = root.system;
+  } else {
     T qs2 = T(0.0);
     for (int k = 1; k < Dim; ++k) qs2 += q[k] * q[k];
     const T qst = qs > 0.0 ? T(sqrt(qs2)) : T(0.0);
-    const auto e = return_system<T>(law, series, q[0], qst, w, s, a);
+    e = return_system<T>(law, series, q[0], qst, w, s, a);
     const double det = value(e.determinant());
     if (qs > 0.0) s += (e.r2 * value(e.r1_a) - e.r1 * value(e.r2_a)) / det;
     a += qs > 0.0 ? T((e.r1 * value(e.r2_s) - e.r2 * value(e.r1_s)) / det) : T(-e.r1 / value(e.r1_a));
+    e = return_system<T>(law, series, q[0], qst, w, s, a);
   }
-  const auto e = return_system<T>(law, series, q[0], T(0.0), w, s, a);
-  const HyperbolaPoint<T> h = hyperbola(law, T(s * s));
-  const T sum = h.flow_n + s;
-  const T step = value(sum) > 0.0 ? T(a / sum) : T(0.0);
+  const T step = a * e.inv;
+  const T shear_factor = 1.0 / e.shear_factor(a);
   CohesiveState<T, Dim> z = begin;
   z.integrity = e.w;
-  z.traction[0] = e.w * h.normal;
-  z.plastic_jump[0] += step * h.flow_n;
+  z.traction[0] = e.w * e.hyp.normal;
+  z.plastic_jump[0] += step * e.hyp.flow_n;
   z.slip += step * s;
   for (int k = 1; k < Dim; ++k) {
-    const T tau = q[k] / e.shear_factor;
+    const T tau = q[k] * shear_factor;
     z.traction[k] = e.w * tau;
     z.plastic_jump[k] += step * tau;
   }
   // Trapezoidal rule in the measure w d(kappa) = delta0 dD: exact in mode I, and never negative.
-  z.dissipated += 0.5 * (entry.density + dissipation_density(law, h, T(s * s))) * law.delta0 * (w - e.w);
+  z.dissipated += 0.5 * (entry.density + dissipation_density(law, e.hyp, s, e.inv)) * law.delta0 * (w - e.w);
   finish(z);
   return report;
 }

@@ -63,11 +63,11 @@ struct ScaledCompliance {
 template <class T, class P>
 [[nodiscard]] ScaledCompliance<T> scaled_compliance(const CohesiveLaw<P>& law, const SeriesCompliance<P>& series,
                                                     const T& w, bool tension) {
-  const T flexibility = T(1.0 / law.kn);
+  const T flexibility = T(law.flexibility_n);
   ScaledCompliance<T> c;
   c.normal = tension ? T(flexibility + w * series.normal) : T(w * (flexibility + series.normal));
   c.normal_slope = tension ? T(series.normal) : T(flexibility + series.normal);
-  c.shear = 1.0 / law.ks + w * series.shear;
+  c.shear = law.flexibility_s + w * series.shear;
   c.shear_slope = T(series.shear);
   return c;
 }
@@ -85,9 +85,9 @@ template <class T, int Dim, class P>
 [[nodiscard]] Vec<T, Dim> elastic_traction(const CohesiveLaw<P>& law, const SeriesCompliance<P>& series, const T& w,
                                            const Vec<T, Dim>& q) {
   Vec<T, Dim> t;
-  t[0] =
-      value(q[0]) >= 0.0 ? T(w * q[0] / (1.0 / law.kn + w * series.normal)) : T(q[0] / (1.0 / law.kn + series.normal));
-  const T shear = w / (1.0 / law.ks + w * series.shear);
+  t[0] = value(q[0]) >= 0.0 ? T(w * q[0] / (law.flexibility_n + w * series.normal))
+                            : T(q[0] / (law.flexibility_n + series.normal));
+  const T shear = w / (law.flexibility_s + w * series.shear);
   for (int k = 1; k < Dim; ++k) t[k] = shear * q[k];
   return t;
 }
@@ -96,8 +96,8 @@ template <class T, int Dim, class P>
 /// counts.
 template <class T, class P>
 [[nodiscard]] T damage_energy(const CohesiveLaw<P>& law, const T& scaled_normal, const T& scaled_shear_squared) {
-  const T shear = scaled_shear_squared / (2.0 * law.ks);
-  return value(scaled_normal) > 0.0 ? T(shear + scaled_normal * scaled_normal / (2.0 * law.kn)) : shear;
+  const T shear = 0.5 * law.flexibility_s * scaled_shear_squared;
+  return value(scaled_normal) > 0.0 ? T(shear + 0.5 * law.flexibility_n * scaled_normal * scaled_normal) : shear;
 }
 
 /// Free energy of the zone per area, psi = w' P K w'/2 with w' = u + u0 - up, minus its value at onset (J/m^2).
@@ -115,15 +115,13 @@ template <class T, int Dim, class P>
   return 0.5 * (law.kn * (normal - c.offset[0] * c.offset[0]) + law.ks * (c.integrity * shear - shear_onset));
 }
 
-/// Dissipation per unit of (w d kappa) on the yield surface: t.dup + Y dD, all scaled by w (J/m^3 of jump; always >=
-/// 0).
+/// Dissipation per unit of (w d kappa) on the yield surface: t.dup + Y dD, all scaled by w (Pa; always >= 0).
+/// `shear` is |tau_s|, `inv` is 1/(m_n + |tau_s|) or 0 without flow.
 template <class T, class P>
-[[nodiscard]] T dissipation_density(const CohesiveLaw<P>& law, const HyperbolaPoint<T>& h, const T& shear_squared) {
-  using std::sqrt;
-  const T shear = value(shear_squared) > 0.0 ? T(sqrt(shear_squared)) : T(0.0);
-  const T sum = h.flow_n + shear;
-  const T plastic = value(sum) > 0.0 ? T((h.normal * h.flow_n + shear_squared) / sum) : T(0.0);
-  return plastic + damage_energy(law, h.normal, shear_squared) / law.delta0;
+[[nodiscard]] T dissipation_density(const CohesiveLaw<P>& law, const HyperbolaPoint<T>& h, const T& shear,
+                                    const T& inv) {
+  const T shear_squared = shear * shear;
+  return (h.normal * h.flow_n + shear_squared) * inv + damage_energy(law, h.normal, shear_squared) * law.inverse_delta0;
 }
 
 }  // namespace fpz

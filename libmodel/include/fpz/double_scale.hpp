@@ -64,15 +64,7 @@ template <class T, int Dim, class P>
 [[nodiscard]] Tensor<T, Dim> macro_stress(const Material<P>& m, const State<T, Dim>& s) {
   const Vec<T, Dim> n = s.frame.row(0).transpose();
   const Vec<T, Dim> jump = s.frame.transpose() * s.crack.jump;
-  return m.bulk.template stress<T, Dim>(s.strain) - jump_stress<T, Dim>(m.bulk, n, jump) / T(m.rve_length);
-}
-
-template <class T, int N>
-[[nodiscard]] bool is_finite(const Vec<T, N>& v) {
-  for (int k = 0; k < N; ++k) {
-    if (!std::isfinite(value(v[k]))) return false;
-  }
-  return true;
+  return m.bulk.template stress<T, Dim>(s.strain) - jump_stress<T, Dim>(m.bulk, n, jump) * T(m.inverse_length);
 }
 
 /// The plane search chosen by the options.
@@ -104,35 +96,39 @@ template <int Dim, class T, class P>
   return s;
 }
 
-/// The update proper, for any scalar.
+/// A cracked point whose strain goes straight from begin.strain to `strain`.
+template <int Dim, class T, class P>
+[[nodiscard]] Report update_cracked(const Material<P>& m, const Options& o, const State<T, Dim>& begin,
+                                    const Tensor<T, Dim>& strain, State<T, Dim>& end) {
+  const Vec<T, Dim> d0 = drive<T, Dim>(m, begin.frame, begin.strain);
+  const Vec<T, Dim> d1 = drive<T, Dim>(m, begin.frame, strain);
+  CohesiveState<T, Dim> zone;
+  const Report report = integrate_cohesive(m.law, m.series, o, begin.crack, d0, d1, zone);
+  if (!report.ok()) return report;
+  end.cracked = true;
+  end.strain = strain;
+  end.frame = begin.frame;
+  end.crack = zone;
+  end.stress = macro_stress(m, end);
+  return report;
+}
+
+/// The update proper, for any scalar. Reads `begin` completely before it writes `end`, and writes only on success.
 template <int Dim, class T, class P>
 [[nodiscard]] Report update_any(const Material<P>& m, const Options& o, const State<T, Dim>& begin,
                                 const Tensor<T, Dim>& dstrain, State<T, Dim>& end) {
   const Tensor<T, Dim> strain = begin.strain + dstrain;
   if (!is_finite(strain)) return {Status::invalid_input, 0, 0, false};
-  State<T, Dim> s = begin;
-  bool onset = false;
-  if (!begin.cracked) {
-    const Tensor<T, Dim> stress = m.bulk.template stress<T, Dim>(strain);
-    if (surely_intact<Dim>(m, convert<double>(stress)) || value(find_plane<Dim>(m, o, stress).failure_value) < 0.0) {
-      end = begin;
-      end.strain = strain;
-      end.stress = stress;
-      return {};
-    }
-    s = open_crack<Dim>(m, o, begin, strain, stress);
-    onset = true;
+  if (begin.cracked) return update_cracked<Dim>(m, o, begin, strain, end);
+  const Tensor<T, Dim> stress = m.bulk.template stress<T, Dim>(strain);
+  if (surely_intact<Dim>(m, convert<double>(stress)) || value(find_plane<Dim>(m, o, stress).failure_value) < 0.0) {
+    end.strain = strain;
+    end.stress = stress;
+    end.cracked = false;
+    return {};
   }
-  const Vec<T, Dim> d0 = drive<T, Dim>(m, s.frame, s.strain);
-  const Vec<T, Dim> d1 = drive<T, Dim>(m, s.frame, strain);
-  CohesiveState<T, Dim> zone;
-  Report report = integrate_cohesive(m.law, m.series, o, s.crack, d0, d1, zone);
-  report.onset = onset;
-  if (!report.ok()) return report;
-  s.crack = zone;
-  s.strain = strain;
-  s.stress = macro_stress(m, s);
-  end = s;
+  Report report = update_cracked<Dim>(m, o, open_crack<Dim>(m, o, begin, strain, stress), strain, end);
+  report.onset = true;
   return report;
 }
 
@@ -140,18 +136,14 @@ template <int Dim, class T, class P>
 
 /// Stress-strain update of one point over a strain increment (Algorithm 2). The strain moves on a straight line from
 /// begin.strain to begin.strain + dstrain. On failure `end` equals `begin` and the status says why. begin and end may
-/// be the same object. No heap allocation. T may carry derivatives (Dual, ceres::Jet), as may the material's P: the
-/// result then carries the derivatives of the discrete update, onset and sub-stepping included.
+/// be the same object; while a point stays uncracked, only strain, stress and `cracked` of `end` are written. No heap
+/// allocation. T may carry derivatives (Dual, ceres::Jet), as may the material's P: the result then carries the
+/// derivatives of the discrete update, onset and sub-stepping included.
 template <int Dim, class T, class P>
 [[nodiscard]] Report update(const Material<P>& m, const Options& o, const State<T, Dim>& begin,
                             const Tensor<T, Dim>& dstrain, State<T, Dim>& end) {
-  State<T, Dim> out;
-  const Report report = detail::update_any<Dim>(m, o, begin, dstrain, out);
-  if (report.ok()) {
-    end = out;
-  } else {
-    end = State<T, Dim>(begin);
-  }
+  const Report report = detail::update_any<Dim>(m, o, begin, dstrain, end);
+  if (!report.ok() && &end != &begin) end = begin;
   return report;
 }
 
@@ -195,7 +187,7 @@ template <int Dim>
     collect.template rightCols<N - Dim>() *= 2.0;  // a tensor shear component enters twice
     Mat<double, Dim, Dim> jump_by_drive;
     for (int k = 0; k < Dim; ++k) jump_by_drive.row(k) = result.jump[k].grad.transpose();
-    tangent = elastic_tangent<Dim>(m.bulk) - spread * jump_by_drive * collect / m.rve_length;
+    tangent = elastic_tangent<Dim>(m.bulk) - spread * jump_by_drive * collect * m.inverse_length;
   } else {
     using D = Dual<N>;
     State<D, Dim> lifted;
@@ -237,7 +229,7 @@ template <class T, int Dim, class P>
   const Elasticity<P> half{P(0.0), P(0.5), P(0.0)};  // 2 mu = 1: the "stress" of sym(n (x) u) is itself
   const Vec<T, Dim> n = s.frame.row(0).transpose();
   const Vec<T, Dim> jump = s.frame.transpose() * s.crack.jump;
-  return s.strain - jump_stress<T, Dim>(half, n, jump) / T(m.rve_length);
+  return s.strain - jump_stress<T, Dim>(half, n, jump) * T(m.inverse_length);
 }
 
 /// Stored energy per volume, J/m^3: elastic energy of the bulk plus that of the cohesive zone since onset over H.
@@ -245,13 +237,13 @@ template <class T, int Dim, class P>
 template <class T, int Dim, class P>
 [[nodiscard]] T stored_energy(const Material<P>& m, const State<T, Dim>& s) {
   const T bulk = 0.5 * double_dot<Dim>(s.stress, bulk_strain(m, s));
-  return s.cracked ? T(bulk + free_energy(m.law, s.crack) / m.rve_length) : bulk;
+  return s.cracked ? T(bulk + free_energy(m.law, s.crack) * m.inverse_length) : bulk;
 }
 
 /// Dissipated energy per volume, J/m^3; never decreases.
 template <class T, int Dim, class P>
 [[nodiscard]] T dissipated_energy(const Material<P>& m, const State<T, Dim>& s) {
-  return s.cracked ? T(s.crack.dissipated / m.rve_length) : T(0.0);
+  return s.cracked ? T(s.crack.dissipated * m.inverse_length) : T(0.0);
 }
 
 /// D of eq 47 (0 when uncracked).

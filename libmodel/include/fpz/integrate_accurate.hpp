@@ -152,7 +152,7 @@ template <class T, int Dim, class P>
       continue;
     }
     const Vec<T, Dim> q_entry = d0 + rate * fraction + z.offset - z.plastic_jump;
-    const T cs = 1.0 / law.ks + z.integrity * series.shear;
+    const T cs = law.flexibility_s + z.integrity * series.shear;
     Vec<T, Dim> y;
     for (int k = 0; k < NS; ++k) y[k] = q_entry[k + 1] / cs;
     y[NS] = T(0.0);

@@ -32,7 +32,7 @@ struct Elasticity {
   }
 };
 
-/// Constants of the mixed-mode cohesive law (eq 44-50).
+/// Constants of the mixed-mode cohesive law (eq 44-50), with the reciprocals that the inner loops multiply by.
 template <class P>
 struct CohesiveLaw {
   P kn{};                ///< Kn, Pa/m
@@ -41,8 +41,12 @@ struct CohesiveLaw {
   P cohesion{};          ///< c0, Pa
   P tan_phi{};
   P tan_psi{};
-  P delta0{};  ///< m
-  P apex{};    ///< A = c0 - sigma_t0 tan phi, Pa: half the distance scale of the yield hyperbola
+  P delta0{};         ///< m
+  P apex{};           ///< A = c0 - sigma_t0 tan phi, Pa: half the distance scale of the yield hyperbola
+  P flexibility_n{};  ///< 1/Kn, m/Pa
+  P flexibility_s{};  ///< 1/Ks, m/Pa
+  P cot_phi{};
+  P inverse_delta0{};  ///< 1/m
 };
 
 /// Compliance in series with the cohesive zone, in the local frame: jump = drive - compliance * traction.
@@ -61,7 +65,8 @@ struct Material {
   Elasticity<P> bulk;
   CohesiveLaw<P> law;
   SeriesCompliance<P> series;
-  P rve_length{};  ///< H, m
+  P rve_length{};      ///< H, m
+  P inverse_length{};  ///< 1/H, 1/m
   P sin_phi{};
   P cos_phi{};
 };
@@ -79,6 +84,10 @@ template <class P>
   law.tan_psi = tan(p.dilation_angle_deg * degree);
   law.delta0 = p.delta0;
   law.apex = p.cohesion - p.tensile_strength * law.tan_phi;
+  law.flexibility_n = 1.0 / p.normal_stiffness;
+  law.flexibility_s = 1.0 / p.shear_stiffness;
+  law.cot_phi = 1.0 / law.tan_phi;
+  law.inverse_delta0 = 1.0 / p.delta0;
   return law;
 }
 
@@ -86,6 +95,7 @@ template <class P>
 template <class P>
 void set_rve_length(Material<P>& m, const P& length) {
   m.rve_length = length;
+  m.inverse_length = 1.0 / length;
   m.series.normal = length / (m.bulk.lambda + 2.0 * m.bulk.mu);
   m.series.shear = length / m.bulk.mu;
 }
@@ -110,15 +120,28 @@ template <class P>
   return m;
 }
 
-/// The plain values of a law, compliance or material that carries derivatives: solvers iterate on these.
+/// The plain values of a law or compliance that carries derivatives: solvers iterate on these. A plain one is passed
+/// through.
 template <class P>
 [[nodiscard]] CohesiveLaw<double> values(const CohesiveLaw<P>& a) {
-  return {value(a.kn),      value(a.ks),      value(a.tensile_strength), value(a.cohesion),
-          value(a.tan_phi), value(a.tan_psi), value(a.delta0),           value(a.apex)};
+  return {value(a.kn),
+          value(a.ks),
+          value(a.tensile_strength),
+          value(a.cohesion),
+          value(a.tan_phi),
+          value(a.tan_psi),
+          value(a.delta0),
+          value(a.apex),
+          value(a.flexibility_n),
+          value(a.flexibility_s),
+          value(a.cot_phi),
+          value(a.inverse_delta0)};
 }
+[[nodiscard]] inline const CohesiveLaw<double>& values(const CohesiveLaw<double>& a) { return a; }
 template <class P>
 [[nodiscard]] SeriesCompliance<double> values(const SeriesCompliance<P>& a) {
   return {value(a.normal), value(a.shear)};
 }
+[[nodiscard]] inline const SeriesCompliance<double>& values(const SeriesCompliance<double>& a) { return a; }
 
 }  // namespace fpz

@@ -58,8 +58,8 @@ template <int NS, class T, class P>
   }
   const T sum = r.hyp.flow_n + r.shear;
   r.inv = value(sum) > 0.0 ? T(1.0 / sum) : T(0.0);
-  r.normal_s = tau_s * T(-1.0 / (law.tan_phi * r.hyp.radius));
-  const T w_a = integrity_slope(w, law.delta0);
+  r.normal_s = tau_s * T(-law.cot_phi / r.hyp.radius);
+  const T w_a = integrity_slope(law, w);
   r.m12 = r.hyp.flow_n * r.inv + w_a * r.c.normal_slope * r.hyp.normal;
   r.m22 = tau_s * T(r.inv + w_a * r.c.shear_slope);
   r.ratio = r.c.normal / r.c.shear;
@@ -95,8 +95,8 @@ template <class T, int NS>
 template <class T, int NS, class P>
 [[nodiscard]] Mat<T, NS + 1, NS + 1> rate_jacobian(const CohesiveLaw<P>& law, const RatePoint<T, NS>& r,
                                                    const Vec<T, NS>& tau_s, const Rates<T, NS>& f) {
-  const T w_a = integrity_slope(r.w, law.delta0);
-  const T w_aa = integrity_slope(w_a, law.delta0);
+  const T w_a = integrity_slope(law, r.w);
+  const T w_aa = integrity_slope(law, w_a);
   const P tan2_psi = law.tan_psi * law.tan_psi;
   T s_dot = T(0.0);
   T g_dot = T(0.0);
@@ -106,7 +106,7 @@ template <class T, int NS, class P>
   }
   const T inv2 = r.inv * r.inv;
   const T radius2 = r.hyp.radius * r.hyp.radius;
-  const T curvature = -1.0 / (law.tan_phi * r.hyp.radius);
+  const T curvature = -law.cot_phi / r.hyp.radius;
   Mat<T, NS + 1, NS + 1> jac;
   for (int j = 0; j <= NS; ++j) {  // column j: derivative with respect to y_j of the products M(y) f
     T dn;
@@ -177,8 +177,8 @@ template <int Dim, class T, class P>
       }
     }
     const T scale = tension ? T(1.0) : w;
-    const T cn = tension ? T(1.0 / law.kn + w * series.normal) : T(1.0 / law.kn + series.normal);
-    const T cs = 1.0 / law.ks + w * series.shear;
+    const T cn = tension ? T(law.flexibility_n + w * series.normal) : T(law.flexibility_n + series.normal);
+    const T cs = law.flexibility_s + w * series.shear;
     const Vec<T, Dim> start = q0 + dq * from;
     Vec<T, NS> s, ds;
     for (int k = 0; k < NS; ++k) {

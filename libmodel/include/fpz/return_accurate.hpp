@@ -4,32 +4,11 @@
 // step, because the ODE runs on the yield surface itself.
 #pragma once
 
-#include <Eigen/LU>
-#include <array>
-
 #include "fpz/options.hpp"
 #include "fpz/rate.hpp"
+#include "fpz/rodas.hpp"
 
 namespace fpz::detail {
-
-struct Rodas {
-  static constexpr int stages = 6;
-  static constexpr double gamma = 0.25;
-  static constexpr double a[6][5] = {
-      {},
-      {1.544000000000000},
-      {0.9466785280815826, 0.2557011698983284},
-      {3.314825187068521, 2.896124015972201, 0.9986419139977817},
-      {1.221224509226641, 6.019134481288629, 12.53708332932087, -0.6878860361058950},
-      {1.221224509226641, 6.019134481288629, 12.53708332932087, -0.6878860361058950, 1.0}};
-  static constexpr double c[6][5] = {
-      {},
-      {-5.668800000000000},
-      {-2.430093356833875, -0.2063599157091915},
-      {-0.1073529058151375, -9.594562251023355, -20.47028614809616},
-      {7.496443313967647, -10.24680431464352, -33.99990352819905, 11.70890893206160},
-      {8.083246795921522, -7.981132988064893, -31.52159432874371, 16.31930543123136, -6.058818238834054}};
-};
 
 /// One yielding phase: state y = (tau_s, a) relative to the integrity at its begin, driven at constant rate.
 template <class T, int Dim, class P>
@@ -45,7 +24,7 @@ class YieldingPhase {
   Branch branch;
 
   [[nodiscard]] static Shear shear_of(const Y& y) { return y.template head<NS>(); }
-  [[nodiscard]] T integrity(const Y& y) const { return w_begin_ * integrity_ratio(y[NS], law_.delta0); }
+  [[nodiscard]] T integrity(const Y& y) const { return w_begin_ * integrity_ratio(law_, y[NS]); }
   [[nodiscard]] RatePoint<T, NS> point(const Y& y) const {
     return rate_point<NS>(law_, series_, branch, shear_of(y), integrity(y), rate_s_);
   }
@@ -60,50 +39,28 @@ class YieldingPhase {
 
   /// Dissipated energy per unit of the increment at a point with inelastic rate a'.
   [[nodiscard]] T power(const RatePoint<T, NS>& r, const T& a_rate) const {
-    return r.w * a_rate * dissipation_density(law_, r.hyp, T(r.shear * r.shear));
+    return r.w * a_rate * dissipation_density(law_, r.hyp, r.shear, r.inv);
   }
 
-  struct Step {
-    bool defined = false;  ///< false: a stage met h <= 0 (the rate problem has no unique solution there)
-    Y y;
-    Y error;
-  };
-
-  /// One RODAS step of size h from y0, whose coefficients `r0` and rates `f0` are given.
-  [[nodiscard]] Step advance(const Y& y0, const RatePoint<T, NS>& r0, const Y& f0, const T& h) const {
-    Step out;
+  /// One RODAS step of size h from y0, whose coefficients `r0` and rates `f0` are given. Undefined where a stage meets
+  /// h <= 0: the rate problem has no unique solution there.
+  [[nodiscard]] RodasStep<T, Dim> advance(const Y& y0, const RatePoint<T, NS>& r0, const Y& f0, const T& h) const {
     Rates<T, NS> f;
     f.tau_s = f0.template head<NS>();
     f.a = f0[NS];
-    using Matrix = Mat<T, Dim, Dim>;
-    Matrix e = -rate_jacobian(law_, r0, shear_of(y0), f);
-    const T diagonal = 1.0 / (h * Rodas::gamma);
-    for (int k = 0; k < Dim; ++k) e(k, k) += diagonal;
-    const Matrix inverse = e.inverse();
-    std::array<Y, Rodas::stages> u;
-    for (int i = 0; i < Rodas::stages; ++i) {
-      Y yi = y0;
-      Y rhs = f0;
-      if (i > 0) {
-        for (int j = 0; j < i; ++j) yi += u[j] * T(Rodas::a[i][j]);
-        const RatePoint<T, NS> r = point(yi);
-        if (!(value(r.h) > 0.0)) return out;
-        rhs = rates(r);
-        for (int j = 0; j < i; ++j) rhs += u[j] * T(Rodas::c[i][j] / h);
-      }
-      u[i] = inverse * rhs;
-      if (i == Rodas::stages - 1) out.y = yi + u[i];
-    }
-    out.error = u[Rodas::stages - 1];
-    out.defined = std::isfinite(value(out.y[NS]));
-    return out;
+    return rodas_step<T, Dim>(y0, f0, rate_jacobian(law_, r0, shear_of(y0), f), h, [&](const Y& y, Y& out) {
+      const RatePoint<T, NS> r = point(y);
+      if (!(value(r.h) > 0.0)) return false;
+      out = rates(r);
+      return true;
+    });
   }
 
   /// Error of a step against the tolerance on t/sigma_t0 and D. The normal jump keeps a weight when w -> 0, because the
   /// position of a closed crack depends on it.
   [[nodiscard]] double error_norm(const RatePoint<T, NS>& r, const Y& error) const {
     const double w = value(r.w);
-    const double contact = value(r.c.normal) / (1.0 / value(law_.kn) + value(series_.normal) + 1e-300);
+    const double contact = value(r.c.normal) / (value(law_.flexibility_n) + value(series_.normal) + 1e-300);
     const double weight = std::max(w, contact) / value(law_.tensile_strength);
     double shear2 = 0.0;
     double normal = 0.0;

@@ -21,33 +21,42 @@ template <class T>
 struct ReturnSystem {
   T r1, r2;
   T r1_s, r1_a, r2_s, r2_a;
-  T w, flow_n, shear_factor;  ///< shear_factor: q_s = shear_factor * tau_s (vectors)
+  T w;
+  HyperbolaPoint<T> hyp;
+  T inv;       ///< 1/(m_n + S), 0 without flow
+  T normal_s;  ///< d tau_n / dS
+  T c_normal, c_shear;
 
   /// r1_s r2_a - r1_a r2_s; negative where G(a) falls, which is the discrete form of h_ser > 0.
   [[nodiscard]] T determinant() const { return r1_s * r2_a - r1_a * r2_s; }
+  /// h > 0 of the rate problem (rate.hpp) at this point of the surface, times c_s > 0.
+  [[nodiscard]] T rate_modulus() const { return c_normal * normal_s * r2_a - r1_a * c_shear; }
+  /// q_s = shear_factor(a) * tau_s, as vectors.
+  [[nodiscard]] T shear_factor(const T& a) const { return c_shear + a * inv; }
 };
 
 template <class T, class P, class X>
 [[nodiscard]] ReturnSystem<T> return_system(const CohesiveLaw<P>& law, const SeriesCompliance<P>& series, const T& qn,
                                             const T& qs, const T& w_old, const X& s, const X& a) {
   ReturnSystem<T> e;
-  e.w = w_old * integrity_ratio(T(a), law.delta0);
-  const HyperbolaPoint<T> h = hyperbola(law, T(s * s));
-  e.flow_n = h.flow_n;
-  const ScaledCompliance<T> c = scaled_compliance(law, series, e.w, value(h.normal) >= 0.0);
-  const T sum = h.flow_n + s;
-  const bool flows = value(sum) > 0.0;
-  const T inv = flows ? T(1.0 / sum) : T(0.0);
-  const T normal_s = -s / (law.tan_phi * h.radius);  // d tau_n / dS
-  const T flow_s = -law.tan_psi * law.tan_psi * normal_s;
-  const T w_a = integrity_slope(e.w, law.delta0);
-  e.r1 = qn - c.normal * h.normal - a * h.flow_n * inv;
-  e.r2 = qs - c.shear * s - a * s * inv;
-  e.r1_s = -c.normal * normal_s - a * (flow_s * s - h.flow_n) * inv * inv;
-  e.r2_s = -c.shear - a * (h.flow_n - s * flow_s) * inv * inv;
-  e.r1_a = -c.normal_slope * w_a * h.normal - h.flow_n * inv;
-  e.r2_a = -c.shear_slope * w_a * s - s * inv;
-  e.shear_factor = c.shear + a * inv;
+  e.w = w_old * integrity_ratio(law, T(a));
+  e.hyp = hyperbola(law, T(s * s));
+  const ScaledCompliance<T> c = scaled_compliance(law, series, e.w, value(e.hyp.normal) >= 0.0);
+  const T sum = e.hyp.flow_n + s;
+  e.inv = value(sum) > 0.0 ? T(1.0 / sum) : T(0.0);
+  e.normal_s = -s * law.cot_phi / e.hyp.radius;
+  e.c_normal = c.normal;
+  e.c_shear = c.shear;
+  const T flow_s = -law.tan_psi * law.tan_psi * e.normal_s;
+  const T w_a = integrity_slope(law, e.w);
+  const T fraction_n = e.hyp.flow_n * e.inv;
+  const T fraction_s = s * e.inv;
+  e.r1 = qn - c.normal * e.hyp.normal - a * fraction_n;
+  e.r2 = qs - c.shear * s - a * fraction_s;
+  e.r1_s = -c.normal * e.normal_s - a * (flow_s * fraction_s - fraction_n) * e.inv;
+  e.r2_s = -c.shear - a * (fraction_n - fraction_s * flow_s) * e.inv;
+  e.r1_a = -c.normal_slope * w_a * e.hyp.normal - fraction_n;
+  e.r2_a = -c.shear_slope * w_a * s - fraction_s;
   return e;
 }
 
@@ -56,13 +65,14 @@ struct ReturnSolution {
   double s = 0.0;
   double a = 0.0;
   int iterations = 0;
+  ReturnSystem<double> system;  ///< evaluated at (s, a)
 };
 
 /// S(a) from r2 = 0 by bracketed Newton; r2 falls strictly in S on [0, |q_s|/c_s].
 inline double shear_at(const CohesiveLaw<double>& law, const SeriesCompliance<double>& series, double qn, double qs,
                        double w_old, double a, double guess, int& iterations) {
   double lo = 0.0;
-  double hi = qs / scaled_compliance(law, series, w_old * integrity_ratio(a, law.delta0), true).shear;
+  double hi = qs / scaled_compliance(law, series, w_old * integrity_ratio(law, a), true).shear;
   double s = std::min(std::max(guess, lo), hi);
   for (int k = 0; k < 200; ++k) {
     ++iterations;
@@ -108,6 +118,7 @@ inline ReturnSolution solve_bracketed(const CohesiveLaw<double>& law, const Seri
       out.status = Status::ok;
       out.s = s;
       out.a = a;
+      out.system = e;
       return out;
     }
     a = next;
@@ -120,29 +131,26 @@ inline ReturnSolution solve_return(const CohesiveLaw<double>& law, const SeriesC
                                    double qs, double w_old, double s, double a, double tolerance) {
   ReturnSolution out;
   const double a0 = a;
+  bool close = false;  // the last step was so small that the next iterate is exact to rounding
   for (int k = 0; k < 12; ++k) {
-    const auto e = return_system(law, series, qn, qs, w_old, s, a);
+    const ReturnSystem<double> e = return_system(law, series, qn, qs, w_old, s, a);
     ++out.iterations;
     const double det = e.determinant();
-    if (std::abs(e.r1) <= tolerance && std::abs(e.r2) <= tolerance && det < 0.0 && a >= 0.0) {
+    const bool solved = std::abs(e.r1) <= tolerance && std::abs(e.r2) <= tolerance;
+    if ((close || solved) && det < 0.0 && a >= 0.0) {
       out.status = Status::ok;
       out.s = s;
       out.a = a;
+      out.system = e;
       return out;
     }
-    const double ds = (e.r2 * e.r1_a - e.r1 * e.r2_a) / det;
-    const double da = (e.r1 * e.r2_s - e.r2 * e.r1_s) / det;
+    const double inverse = 1.0 / det;
+    const double ds = (e.r2 * e.r1_a - e.r1 * e.r2_a) * inverse;
+    const double da = (e.r1 * e.r2_s - e.r2 * e.r1_s) * inverse;
     if (!(det < 0.0) || !std::isfinite(ds) || !std::isfinite(da)) break;
-    s = std::max(s + ds, 0.0);
+    close = std::abs(ds) <= 1e-9 * (s + law.apex) && std::abs(da) <= 1e-9 * a;
+    s = qs == 0.0 ? 0.0 : std::max(s + ds, 0.0);
     a = std::max(a + da, 0.0);
-    if (qs == 0.0) s = 0.0;
-    // Converged to rounding although the residual test is stricter than the rounding of its terms.
-    if (std::abs(ds) <= 1e-14 * (s + law.apex) && std::abs(da) <= 1e-14 * a && a > 0.0) {
-      out.status = Status::ok;
-      out.s = s;
-      out.a = a;
-      return out;
-    }
   }
   const int spent = out.iterations;
   out = solve_bracketed(law, series, qn, qs, w_old, a0, tolerance);

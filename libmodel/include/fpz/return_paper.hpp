@@ -39,7 +39,7 @@ template <class T, int Dim, class P>
     slip2 += d.g_t[k] * d.g_t[k];
   }
   const T slip = value(slip2) > 0.0 ? T(sqrt(slip2)) : T(0.0);
-  d.r = -integrity_slope(w, law.delta0) * (d.g_t[0] + slip);
+  d.r = -integrity_slope(law, w) * (d.g_t[0] + slip);
   d.f_d = 2.0 * law.cohesion * law.tan_phi * (2.0 * law.tensile_strength * w - t[0]) -
           2.0 * law.tan_phi * law.tan_phi * law.tensile_strength * law.tensile_strength * w;
   d.denominator = -d.f_d * d.r;

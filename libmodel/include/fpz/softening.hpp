@@ -4,19 +4,21 @@
 
 #include <cmath>
 
+#include "fpz/material.hpp"
+
 namespace fpz {
 
 /// Ratio w_end / w_begin after an inelastic displacement increment `kappa` = d(up_n) + d(up_s) >= 0 (m), eq 47.
 template <class T, class P>
-[[nodiscard]] T integrity_ratio(const T& kappa, const P& delta0) {
+[[nodiscard]] T integrity_ratio(const CohesiveLaw<P>& law, const T& kappa) {
   using std::exp;
-  return exp(-kappa / delta0);
+  return exp(-kappa * law.inverse_delta0);
 }
 
 /// Rate dw/dkappa = -w/delta0 of eq 47 (1/m).
 template <class T, class P>
-[[nodiscard]] T integrity_slope(const T& integrity, const P& delta0) {
-  return -integrity / delta0;
+[[nodiscard]] T integrity_slope(const CohesiveLaw<P>& law, const T& integrity) {
+  return -integrity * law.inverse_delta0;
 }
 
 }  // namespace fpz

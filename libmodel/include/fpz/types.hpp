@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <cstdint>
 
 #include "fpz/scalar.hpp"
@@ -82,6 +83,14 @@ template <int Dim, class A, class B>
   } else {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + 2.0 * (a[3] * b[3] + a[4] * b[4] + a[5] * b[5]);
   }
+}
+
+template <class T, int N>
+[[nodiscard]] bool is_finite(const Vec<T, N>& v) {
+  for (int k = 0; k < N; ++k) {
+    if (!std::isfinite(value(v[k]))) return false;
+  }
+  return true;
 }
 
 /// Component-wise conversion between scalar types (constants lifted to duals, or values taken from them).

@@ -43,7 +43,7 @@ template <class T, class P>
   using std::sqrt;
   HyperbolaPoint<T> h;
   h.radius = sqrt(shear_squared + law.apex * law.apex);
-  h.normal = (law.cohesion - h.radius) / law.tan_phi;
+  h.normal = (law.cohesion - h.radius) * law.cot_phi;
   h.flow_n = law.tan_psi * (law.cohesion - h.normal * law.tan_psi);
   return h;
 }
