@@ -5,7 +5,7 @@ set -euo pipefail
 
 packages=(
   build-essential cmake ninja-build
-  libeigen3-dev libceres-dev nlohmann-json3-dev
+  libeigen3-dev libceres-dev nlohmann-json3-dev libcli11-dev
   libgtest-dev libgmock-dev libbenchmark-dev
   gnuplot-nox libgnuplot-iostream-dev
   libboost-iostreams-dev libboost-filesystem-dev libboost-system-dev
