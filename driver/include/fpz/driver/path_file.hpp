@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <stdexcept>
@@ -17,8 +18,18 @@ namespace fpz::driver {
 /// Tensor components in the order of history.csv.
 inline constexpr std::array<std::string_view, 6> component_names = {"xx", "yy", "zz", "xy", "xz", "yz"};
 
-/// Bad input: what() names the file, the place in it (line and key path), the value, and the constraint or nearest
-/// valid name.
+/// The columns of history.csv, in order; all of them are numbers and can be named in a stop condition.
+// clang-format off
+inline constexpr std::array<std::string_view, 26> history_columns = {
+    "stage", "increment", "time",
+    "eps_xx", "eps_yy", "eps_zz", "eps_xy", "eps_xz", "eps_yz",
+    "sig_xx", "sig_yy", "sig_zz", "sig_xy", "sig_xz", "sig_yz",
+    "u_n", "u_s1", "u_s2", "up_n", "up_s", "t_n", "t_s1", "t_s2",
+    "D", "energy_stored", "energy_dissipated"};
+// clang-format on
+
+/// Bad input: what() has one line per problem, which names the file, the place in it (line and key path), the value,
+/// and the constraint or nearest valid name.
 class InputError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -39,7 +50,8 @@ struct ComponentControl {
 };
 
 /// sum_i strain[i] eps_i + stress[i] sig_i = value at the end of the stage, approached linearly from its value at the
-/// stage's begin.
+/// stage's begin. A component that a constraint names and no control prescribes is free; a stage has as many
+/// constraints as free components.
 struct LinearConstraint {
   std::array<double, 6> strain{};
   std::array<double, 6> stress{};  ///< 1/Pa scale is the user's choice
@@ -61,10 +73,11 @@ struct JumpControl {
 /// One stage of a path. Components of the setting that are not mentioned keep their strain constant
 /// (in plane stress zz follows from sig_zz = 0 and cannot be controlled; in plane strain zz, xz, yz cannot).
 struct Stage {
-  int increments = 1;
+  std::string name;        ///< optional; the same for every repetition of the stage
+  int increments = 1;      ///< with automatic stepping: only scales strain_increment
   bool automatic = false;  ///< step size chosen by the driver from `step_tolerance`
-  double step_tolerance =
-      1e-4;  ///< automatic stepping: largest change of stress per step over sigma_t0 that is not linear
+  /// Automatic stepping: largest change of stress per step over sigma_t0 that is not linear.
+  double step_tolerance = 1e-4;
   std::vector<ComponentControl> controls;
   std::vector<LinearConstraint> constraints;
   std::vector<StopCondition> stop;
@@ -73,17 +86,30 @@ struct Stage {
 
 /// One test: a material point and the stages it goes through (repetitions already expanded).
 struct Test {
-  std::string name;
+  std::string name;  ///< never empty; unique in the file, letter case apart
+  std::string description;
   Parameters parameters;  ///< rve_length included
   std::string material_name;
   Setting setting = Setting::plane_strain;
   Options options;
   std::vector<Stage> stages;
+  std::vector<std::string> warnings;  ///< doubtful but admissible values; one line each, with file and line
 };
 
 struct PathFile {
   std::filesystem::path file;
   std::vector<Test> tests;
+};
+
+/// What a file may ask for at most, so that a slip (or malice) ends in a message and not in exhausted memory.
+struct Limits {
+  std::size_t bytes = std::size_t{64} << 20;  ///< size of a path or material file
+  std::size_t depth = 64;                     ///< nesting of objects and arrays
+  std::size_t values = 2'000'000;             ///< JSON values in a file
+  std::size_t tests = 10'000;                 ///< tests in a file
+  double stages = 1e6;                        ///< stages of all tests together, repetitions expanded
+  double increments = 1e9;                    ///< increments of all tests together
+  std::size_t problems = 100;                 ///< reading stops when so many problems were found
 };
 
 /// Reads and validates a path file; material files are looked up relative to it. Throws InputError listing every
@@ -92,9 +118,11 @@ struct PathFile {
 
 /// The same from text, for tests and the fuzz target; `origin` names the text in messages and gives the folder for
 /// material files.
-[[nodiscard]] PathFile parse_path_file(std::string_view text, const std::filesystem::path& origin);
+[[nodiscard]] PathFile parse_path_file(std::string_view text, const std::filesystem::path& origin,
+                                       const Limits& limits = {});
 
-/// Reads a material file (keys as in data/materials). `rve_length` is left at 0.
+/// Reads and validates a material file (keys as in data/materials). `rve_length` is left at 0. Without a key "name" the
+/// name is that of the file.
 [[nodiscard]] Parameters read_material_file(const std::filesystem::path& file, std::string* name = nullptr);
 
 }  // namespace fpz::driver
