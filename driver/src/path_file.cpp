@@ -101,7 +101,10 @@ class FileReader {
     std::map<std::string, std::size_t> names;
     for (const JsonValue& item : list.value().items) {
       const Place place(list, item);
-      if (!reader_.object(place, "the keys of a test")) continue;
+      if (!item.is(Kind::object)) {  // an empty one inherits everything
+        reader_.problem(place, "expected an object with the keys of a test, found " + item.description());
+        continue;
+      }
       reader_.known_keys(place, test_keys);
       tests.push_back(
           read_test(Scope(place, root), base + '_' + std::to_string(&item - list.value().items.data() + 1)));

@@ -22,8 +22,9 @@ std::string folded(std::string_view text) {
   return result;
 }
 
-/// Optimal string alignment distance: insertions, deletions, replacements, swaps of neighbours.
-std::size_t distance(std::string_view a, std::string_view b) {
+/// Optimal string alignment distances (insertions, deletions, replacements, swaps of neighbours) of `a` to the first
+/// j characters of `b`, for all j.
+std::vector<std::size_t> distances(std::string_view a, std::string_view b) {
   std::vector<std::size_t> before(b.size() + 1);
   std::vector<std::size_t> last(b.size() + 1);
   std::vector<std::size_t> row(b.size() + 1);
@@ -37,7 +38,7 @@ std::size_t distance(std::string_view a, std::string_view b) {
     before.swap(last);
     last.swap(row);
   }
-  return last[b.size()];
+  return last;
 }
 
 bool is_control(unsigned char c) { return c < 0x20 || c == 0x7f; }
@@ -83,11 +84,11 @@ std::string_view nearest_name(std::string_view name, std::span<const std::string
   std::size_t best_distance = std::max<std::size_t>(1, (given.size() + 1) / 3) + 1;
   for (const std::string_view candidate : valid) {
     const std::string other = folded(candidate);
-    std::size_t d = distance(given, other);
+    const std::vector<std::size_t> to_prefixes = distances(given, other);
+    std::size_t d = to_prefixes.back();
     // An abbreviation or an appended unit ("young", "delta0_mm") is closer than its length says.
-    const bool related = std::min(given.size(), other.size()) >= 3 &&
-                         (std::string_view(other).starts_with(given) || std::string_view(given).starts_with(other));
-    if (related) d = std::min<std::size_t>(d, 1);
+    if (given.size() >= 3) d = std::min(d, 1 + *std::min_element(to_prefixes.begin(), to_prefixes.end()));
+    if (other.size() >= 3 && given.starts_with(other)) d = std::min<std::size_t>(d, 1);
     if (std::is_permutation(given.begin(), given.end(), other.begin(), other.end())) d = 0;  // "yx" means "xy"
     if (d < best_distance) {
       best_distance = d;
