@@ -15,9 +15,11 @@ constexpr double micro = 1e6;   // m -> um
 constexpr double milli = 1e3;   // 1 -> 1e-3
 constexpr int most_distinct = 8;
 
-std::string line(const std::string& colour) { return "lines lw 2.5 lc rgb '" + colour + "'"; }
+std::string line(const std::string& colour, const char* width = "2.5") {
+  return std::string("lines lw ").append(width).append(" lc rgb '").append(colour).append("'");
+}
 
-std::string plain(const std::string& component) { return "_{" + component + "}"; }
+std::string subscript(const std::string& component) { return std::string("_{").append(component).append("}"); }
 
 double distance_from_chord(const XY& p, const XY& a, const XY& b, double sx, double sy) {
   const double dx = (b.x - a.x) * sx;
@@ -93,10 +95,12 @@ std::string stage_colour(int k, int count) {
   static constexpr std::array<const char*, most_distinct> distinct = {"#0072B2", "#D55E00", "#009E73", "#CC79A7",
                                                                       "#E69F00", "#56B4E9", "#5D3A9B", "#000000"};
   if (count <= most_distinct) return distinct[static_cast<std::size_t>(k)];
-  const double x = static_cast<double>(k) / (count - 1);
-  const auto mix = [&](double a, double b) { return static_cast<int>(std::lround(a + x * (b - a))); };
-  char text[8];
-  std::snprintf(text, sizeof text, "#%02X%02X%02X", mix(0, 213), mix(114, 94), mix(178, 0));
+  const double x = 2.0 * k / (count - 1);  // blue, purple, orange
+  const auto mix = [x](double a, double b, double c) {
+    return static_cast<unsigned>(std::lround(x < 1.0 ? a + x * (b - a) : b + (x - 1.0) * (c - b))) & 0xFFu;
+  };
+  char text[16];
+  std::snprintf(text, sizeof text, "#%02X%02X%02X", mix(0, 163, 240), mix(64, 30, 135), mix(150, 140, 20));
   return text;
 }
 
@@ -141,13 +145,27 @@ void HistoryCurves::find_local() {
   }
 }
 
+/// Does the damage of the fracture stay as it is during the stage?
+bool HistoryCurves::elastic_cracked(int number) const {
+  const auto& stage = table_.at("stage");
+  const auto& d = table_.at("D");
+  double first = 0.0;
+  double last = 0.0;
+  for (std::size_t i = 0; i < table_.rows(); ++i) {
+    if (stage[i] < number) first = d[i];
+    if (stage[i] <= number) last = d[i];
+  }
+  return first > 0.0 && first == last;
+}
+
 std::vector<Curve> HistoryCurves::by_stage(const Pick& x, const Pick& y, const std::function<bool(std::size_t)>& use) const {
   const auto& stage = table_.at("stage");
   std::vector<Curve> curves;
   const int every = stages_ <= most_distinct ? 1 : (stages_ + most_distinct - 1) / most_distinct;
   for (int k = 1; k <= stages_; ++k) {
     Curve curve;
-    curve.style = line(stage_colour(k - 1, stages_));
+    // An elastic stage is usually retraced by the next one, which would hide it.
+    curve.style = line(stage_colour(k - 1, stages_), stages_ <= most_distinct && elastic_cracked(k) ? "6" : "2.5");
     for (std::size_t i = 0; i < table_.rows(); ++i) {
       const bool here = stage[i] == k;
       const bool just_before = i + 1 < table_.rows() && stage[i + 1] == k && stage[i] < k;  // stages join
@@ -174,8 +192,8 @@ Panel HistoryCurves::stress_strain(const std::string& component) const {
   const auto& strain = table_.at("eps_" + component);
   const auto& stress = table_.at("sig_" + component);
   Panel p;
-  p.x_label = "Strain ε" + plain(component) + " (10^{-3})";
-  p.y_label = "Stress σ" + plain(component) + " (MPa)";
+  p.x_label = "Strain ε" + subscript(component) + " (10^{-3})";
+  p.y_label = "Stress σ" + subscript(component) + " (MPa)";
   p.curves = by_stage([&](std::size_t i) { return milli * strain[i]; }, [&](std::size_t i) { return mega * stress[i]; },
                       [](std::size_t) { return true; });
   return p;
@@ -204,14 +222,13 @@ Panel HistoryCurves::loading_path() const {
   Panel p;
   p.x_label = "Time (stages)";
   p.y_label = "Strain (10^{-3})";
-  p.key = "top left";
   int colour = 0;
   for (const char* component : {"xx", "yy", "zz", "xy", "xz", "yz"}) {
     const auto& strain = table_.at(std::string("eps_") + component);
     const bool moves = std::any_of(strain.begin(), strain.end(), [](double v) { return v != 0.0; });
     if (!moves) continue;
     p.curves.push_back({over_time([&](std::size_t i) { return milli * strain[i]; }), line(stage_colour(colour, most_distinct)),
-                        "ε" + plain(component)});
+                        "ε" + subscript(component)});
     ++colour;
   }
   return p;
@@ -231,7 +248,6 @@ Panel HistoryCurves::energies() const {
   Panel p;
   p.x_label = "Time (stages)";
   p.y_label = "Energy (J/m^3)";
-  p.key = "top left";
   const auto add = [&](const char* column, const char* title, const std::string& style) {
     const auto* energy = table_.find(column);
     if (energy) p.curves.push_back({over_time([&](std::size_t i) { return (*energy)[i]; }), style, title});

@@ -37,7 +37,7 @@ struct Panel {
   std::string x_label;
   std::string y_label;
   std::vector<Curve> curves;
-  std::string key = "top right";
+  std::string key = "below horizontal";  ///< placement; under the axes nothing is covered
   bool legend = true;
 };
 
@@ -67,6 +67,7 @@ class HistoryCurves {
   using Pick = std::function<double(std::size_t)>;
   [[nodiscard]] std::vector<Curve> by_stage(const Pick& x, const Pick& y, const std::function<bool(std::size_t)>& use) const;
   [[nodiscard]] Points over_time(const Pick& y) const;
+  [[nodiscard]] bool elastic_cracked(int stage) const;
   void find_local();
 
   const Table& table_;

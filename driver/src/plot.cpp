@@ -76,11 +76,11 @@ class Picture {
         << "' " << (format == Format::png ? "fontscale 1.9 linewidth 2 " : "") << "size " << f * size.width << ',' << f * size.height
         << " background rgb 'white'\n";
     gp_ << "set border 3 lw 1 lc rgb '#404040'\nset tics nomirror out scale 0.6 textcolor rgb '#202020'\n";
-    gp_ << "set grid lc rgb '#E6E6E6' lw 0.7 dt 1\nset key samplen 1.8 spacing 1.15 opaque box lw 0.4 lc rgb '#D0D0D0'\n";
+    gp_ << "set grid lc rgb '#E6E6E6' lw 0.7 dt 1\nset key samplen 1.8 spacing 1.15 reverse Left\n";
   }
 
   void title(const std::string& text) { gp_ << "set title " << quoted(text) << " noenhanced\n"; }
-  void letter(const std::string& text) { gp_ << "set title " << quoted(text) << " left offset 0,-0.3 font ',15'\n"; }
+  void letter(const std::string& text) { gp_ << "set label 50 " << quoted(text) << " at graph -0.05, graph 1.07 right\n"; }
 
   void labels(const Panel& panel) {
     gp_ << "set xlabel " << quoted(panel.x_label) << "\nset ylabel " << quoted(panel.y_label) << " offset 0.5,0\n";
@@ -105,7 +105,10 @@ class Picture {
       }
     }
     ranges(x.padded(0.03), y.padded(0.06));
+    const bool nothing = x.lo == x.hi && y.lo == y.hi;
+    if (nothing) gp_ << "set label 99 'zero throughout' at graph 0.5,0.6 center textcolor rgb '#606060'\n";
     draw_curves(panel);
+    if (nothing) gp_ << "unset label 99\n";
   }
 
   void draw_curves(const Panel& panel) {
@@ -118,7 +121,7 @@ class Picture {
                  (c.title.empty() ? " notitle" : " title " + quoted(c.title));
     }
     if (command.empty()) {
-      gp_ << "set label 99 'no fracture' at graph 0.5,0.5 center\nplot NaN notitle\nunset label 99\n";
+      gp_ << "set label 99 'no fracture' at graph 0.5,0.6 center textcolor rgb '#606060'\nplot NaN notitle\nunset label 99\n";
       return;
     }
     gp_ << command << "\n";
@@ -166,12 +169,14 @@ Job single(const std::string& name, const Panel& panel, const std::string& title
 
 Job four_panels(const HistoryCurves& curves, const std::string& title) {
   return {"four_panels", {1120, 860}, [&curves, title](Picture& p) {
-            const std::array<Panel, 4> panels = {curves.stress_strain("xx"), curves.stress_strain("xy"), curves.normal_traction(),
+            std::array<Panel, 4> panels = {curves.stress_strain("xx"), curves.stress_strain("xy"), curves.normal_traction(),
                                                  curves.shear_traction()};
             const std::array<const char*, 4> letters = {"(A)", "(B)", "(C)", "(D)"};
-            p.raw() << "set multiplot layout 2,2 title " << quoted(title) << " noenhanced font ',17' margins 0.075,0.98,0.075,0.9 "
-                    << "spacing 0.1,0.13\n";
+            p.raw() << "set multiplot layout 2,2 title " << quoted(title) << " noenhanced font ',17' margins 0.095,0.98,0.09,0.865 "
+                    << "spacing 0.115,0.135\n";
+            panels[0].key = "at screen 0.5,0.94 center top horizontal maxrows 1";
             for (std::size_t k = 0; k < 4; ++k) {
+              panels[k].legend = k == 0;  // one legend for all
               p.letter(letters[k]);
               p.draw(panels[k]);
             }
@@ -189,10 +194,12 @@ Job loading_path(const HistoryCurves& curves, const std::string& title) {
 
 Job damage_energy(const HistoryCurves& curves, const std::string& title) {
   return {"damage_energy", {800, 820}, [&curves, title](Picture& p) {
-            p.raw() << "set multiplot layout 2,1 title " << quoted(title) << " noenhanced font ',17' margins 0.12,0.97,0.085,0.9 "
+            p.raw() << "set multiplot layout 2,1 title " << quoted(title) << " noenhanced font ',17' margins 0.15,0.97,0.13,0.9 "
                     << "spacing 0.1,0.11\n";
             mark_stages(p, curves.stages());
-            p.draw(curves.damage());
+            const Panel damage = curves.damage();
+            p.ranges(Range{0.0, static_cast<double>(curves.stages()), false}.padded(0.03), {0.0, 1.0, false});
+            p.draw_curves(damage);
             p.draw(curves.energies());
             p.raw() << "unset multiplot\n";
           }};
@@ -203,8 +210,8 @@ Job yield_surface(const HistoryCurves& curves, const YieldSurface& s, const std:
             const Points path = curves.traction_path();
             const double strength = s.tensile_strength * 1e-6;
             Range x, y;
-            x.add(-0.6 * strength);
-            x.add(1.1 * strength);
+            x.add(-0.35 * strength);
+            x.add(1.08 * strength);
             for (const XY& q : path) {
               x.add(q.x);
               y.add(q.y);
@@ -213,15 +220,12 @@ Job yield_surface(const HistoryCurves& curves, const YieldSurface& s, const std:
             Panel panel;
             panel.x_label = "Normal traction t_n (MPa)";
             panel.y_label = curves.shear_is_magnitude() ? "Shear traction |t_s| (MPa)" : "Shear traction t_s (MPa)";
-            panel.key = "top right";
             const std::array<std::pair<double, const char*>, 5> levels = {
                 {{0.0, "#000000"}, {0.25, "#505050"}, {0.5, "#7C7C7C"}, {0.75, "#A0A0A0"}, {0.9, "#BEBEBE"}}};
             for (const auto& [damage, colour] : levels) {
               const Points surface = yield_curve(s.tensile_strength, s.cohesion, s.friction_angle_deg, damage, xr.lo);
               if (damage == 0.0) {
-                for (const XY& q : surface) {
-                  if (q.x > -0.3 * strength) y.add(q.y);
-                }
+                for (const XY& q : surface) y.add(q.y);
               }
               std::ostringstream label;
               label << (damage == 0.0 ? "initial yield surface" : "at D = ");

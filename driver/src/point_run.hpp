@@ -63,7 +63,7 @@ class PointRun {
     now_.s = 0.0;
     now_.rate.setZero();
     arm_stops();
-    double ds = 1.0 / stage().increments;
+    double ds = std::min(1.0 / stage().increments, largest_automatic_step);
     increment_ = 0;
     while (now_.s < 1.0 && result_.ok()) {
       ++increment_;
@@ -347,8 +347,12 @@ class PointRun {
         if (r.stress[c] < s.lowest[c].value) s.lowest[c] = {r.stress[c], r.time};
       }
     }
-    const Row& last = result_.history.back();
     s.onset = now_.onset;
+    for (std::size_t c = 0; s.onset && c < 6; ++c) {  // the peak lies between two rows
+      if (s.onset->stress[c] > s.highest[c].value) s.highest[c] = {s.onset->stress[c], s.onset->time};
+      if (s.onset->stress[c] < s.lowest[c].value) s.lowest[c] = {s.onset->stress[c], s.onset->time};
+    }
+    const Row& last = result_.history.back();
     s.damage = last.damage;
     s.stored = last.stored;
     s.dissipated = last.dissipated;

@@ -14,9 +14,9 @@ struct TangentCheckOptions {
 
 struct TangentCheck {
   long checked = 0;
-  long kinks = 0;      ///< steps whose one-sided differences disagree with each other: the tangent is not defined there
+  long kinks = 0;      ///< steps with columns at a kink: one-sided differences disagree, no tangent to judge there
   long failures = 0;   ///< steps above the tolerance
-  double worst = 0.0;  ///< largest relative error outside kinks
+  double worst = 0.0;  ///< largest relative error without the columns at a kink
   double worst_time = 0.0;
   std::string run_status = "ok";  ///< of the path itself
   std::string run_message;
