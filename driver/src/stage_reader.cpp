@@ -213,13 +213,13 @@ class StageReader {
     if (!reader_.object(place, "a value per quantity")) return;
     for (const JsonValue& member : place.value().items) {
       const Place at(place, member);
-      const auto known = std::find(history_columns.begin(), history_columns.end(), member.key);
-      if (known == history_columns.end()) {
-        reader_.problem(at, "unknown quantity " + in_quotes(member.key) + suggestion(member.key, history_columns));
+      const auto known = std::find(stop_quantities.begin(), stop_quantities.end(), member.key);
+      if (known == stop_quantities.end()) {
+        reader_.problem(at, "unknown quantity " + in_quotes(member.key) + suggestion(member.key, stop_quantities));
       }
       const bool damage = member.key == "D";
       const std::optional<double> value = damage ? reader_.number_between(at, 0.0, 1.0) : reader_.number(at);
-      if (known != history_columns.end() && value) s.stop.push_back({member.key, *value});
+      if (known != stop_quantities.end() && value) s.stop.push_back({member.key, *value});
     }
   }
 

@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "fpz/driver/history.hpp"
+
 namespace fpz::driver {
 namespace {
 
@@ -222,6 +224,14 @@ TEST(PathFile, MaterialMayCarryKeysForOtherPrograms) {
       "shear_stiffness",
       R"(1e11, "name": "rock", "source": "s", "units": "SI", "notes": "n", "x_mine": [1], "provenance": {"cost": 1})");
   EXPECT_EQ(parse_path_file(text, origin).tests.at(0).material_name, "rock");
+}
+
+TEST(PathFile, StopQuantitiesAreTheNumericColumnsOfTheHistory) {
+  std::vector<std::string_view> numeric;
+  for (const Column& c : columns()) {
+    if (c.get != nullptr) numeric.push_back(c.name);
+  }
+  EXPECT_EQ(numeric, std::vector<std::string_view>(stop_quantities.begin(), stop_quantities.end()));
 }
 
 TEST(PathFile, FilesOfTheRepositoryAreValid) {

@@ -18,14 +18,15 @@ namespace fpz::driver {
 /// Tensor components in the order of history.csv.
 inline constexpr std::array<std::string_view, 6> component_names = {"xx", "yy", "zz", "xy", "xz", "yz"};
 
-/// The columns of history.csv, in order; all of them are numbers and can be named in a stop condition.
+/// What a stop condition can name: the columns of history.csv that are numbers.
 // clang-format off
-inline constexpr std::array<std::string_view, 26> history_columns = {
+inline constexpr std::array<std::string_view, 32> stop_quantities = {
     "stage", "increment", "time",
     "eps_xx", "eps_yy", "eps_zz", "eps_xy", "eps_xz", "eps_yz",
     "sig_xx", "sig_yy", "sig_zz", "sig_xy", "sig_xz", "sig_yz",
+    "cracked", "n_x", "n_y", "n_z",
     "u_n", "u_s1", "u_s2", "up_n", "up_s", "t_n", "t_s1", "t_s2",
-    "D", "energy_stored", "energy_dissipated"};
+    "D", "energy_stored", "energy_dissipated", "iterations", "energy_work"};
 // clang-format on
 
 /// Bad input: what() has one line per problem, which names the file, the place in it (line and key path), the value,
@@ -60,7 +61,7 @@ struct LinearConstraint {
 
 /// The stage ends when `quantity` (a column name of history.csv) reaches `value` from either side.
 struct StopCondition {
-  std::string quantity;
+  std::string quantity;  ///< one of stop_quantities
   double value = 0.0;
 };
 
