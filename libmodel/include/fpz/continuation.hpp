@@ -1,9 +1,10 @@
-// Jump control (arc length): the inelastic displacement kappa = up_n + up_s drives the point instead of the size of the
-// strain.
+// Jump control (arc length): the inelastic displacement kappa = up_n + up_s
+// drives the point instead of the size of the strain.
 //
-// Along strain = begin + x * direction the rate equations (rate.hpp) give dx/dkappa = h / numerator, which passes
-// smoothly through h = 0: where strain control snaps back, x just turns round. So softening that is too brittle for its
-// H can still be followed.
+// Along strain = begin + x * direction the rate equations (rate.hpp) give
+// dx/dkappa = h / numerator, which passes smoothly through h = 0: where strain
+// control snaps back, x just turns round. So softening that is too brittle for
+// its H can still be followed.
 #pragma once
 
 #include "fpz/double_scale.hpp"
@@ -12,7 +13,8 @@ namespace fpz {
 
 namespace detail {
 
-/// Yielding along a fixed drive direction with kappa as the independent variable: y = (tau_s, x, kappa).
+/// Yielding along a fixed drive direction with kappa as the independent
+/// variable: y = (tau_s, x, kappa).
 template <int Dim>
 class ControlledPhase {
  public:
@@ -42,7 +44,7 @@ class ControlledPhase {
     const T numerator = loading(r, T(rate_[0]), rate_s);
     if (value(numerator) == 0.0) return false;
     const T x_rate = r.h / numerator;
-    for (int k = 0; k < NS; ++k) f[k] = (rate_s[k] * x_rate - r.m22[k]) / r.c.shear;
+    for (int k = 0; k < NS; ++k) f[k] = (rate_s[k] * x_rate - r.m22[k]) * r.inverse_cs;
     f[NS] = x_rate;
     f[NS + 1] = T(1.0);
     return true;
@@ -95,7 +97,8 @@ class ControlledPhase {
   Vec<double, Dim> rate_;
 };
 
-/// Runs the phase over `length` of kappa; y and the dissipated energy are updated.
+/// Runs the phase over `length` of kappa; y and the dissipated energy are
+/// updated.
 template <int Dim>
 [[nodiscard]] Status run_controlled(ControlledPhase<Dim>& phase, const Options& options, double strength, double delta0,
                                     double length, typename ControlledPhase<Dim>::Y& y, double& dissipated,
@@ -155,7 +158,8 @@ template <int Dim>
   return Status::ok;
 }
 
-/// Scales a direction until `reached` holds, by doubling from a small strain; negative when it never does.
+/// Scales a direction until `reached` holds, by doubling from a small strain;
+/// negative when it never does.
 template <class F>
 [[nodiscard]] double expand_until(const F& reached) {
   for (double x = 1e-9; x < 1e3; x *= 2.0) {
@@ -166,11 +170,13 @@ template <class F>
 
 }  // namespace detail
 
-/// Advances the inelastic displacement kappa = up_n + up_s (m) by exactly `dkappa` > 0 along
-/// begin.strain + load_factor * direction / |direction|_max; load_factor (a strain) is found and may be negative where
-/// the path snaps back. An uncracked or elastic begin state first goes elastically, along +direction, to onset or
-/// yield. Integrated with the `accurate` scheme to options.tolerance whatever options.method says. On failure `end`
-/// equals `begin`: non_convergence means that the direction never loads the zone.
+/// Advances the inelastic displacement kappa = up_n + up_s (m) by exactly
+/// `dkappa` > 0 along begin.strain + load_factor * direction / |direction|_max;
+/// load_factor (a strain) is found and may be negative where the path snaps
+/// back. An uncracked or elastic begin state first goes elastically, along
+/// +direction, to onset or yield. Integrated with the `accurate` scheme to
+/// options.tolerance whatever options.method says. On failure `end` equals
+/// `begin`: non_convergence means that the direction never loads the zone.
 template <int Dim>
 [[nodiscard]] Report update_controlled(const Material<double>& m, const Options& o, const State<double, Dim>& begin,
                                        const Tensor<double, Dim>& direction, double dkappa, State<double, Dim>& end,

@@ -1,5 +1,6 @@
-// Algorithm 2: the double-scale model of an RVE. Elastic until a plane fails; then an elastic bulk in series with the
-// embedded cohesive zone, coupled by traction continuity (eq 39-42).
+// Algorithm 2: the double-scale model of an RVE. Elastic until a plane fails;
+// then an elastic bulk in series with the embedded cohesive zone, coupled by
+// traction continuity (eq 39-42).
 #pragma once
 
 #include "fpz/cohesive_law.hpp"
@@ -7,8 +8,8 @@
 
 namespace fpz {
 
-/// State of a material point. Strain is the total strain (tensor components); the crack part has meaning only when
-/// `cracked`.
+/// State of a material point. Strain is the total strain (tensor components);
+/// the crack part has meaning only when `cracked`.
 template <class T, int Dim>
 struct State {
   Tensor<T, Dim> strain = Tensor<T, Dim>::Constant(T(0.0));
@@ -21,8 +22,9 @@ struct State {
 using State2 = State<double, 2>;
 using State3 = State<double, 3>;
 
-/// d(stress)/d(strain) on stored components: column j is the derivative with respect to stored strain component j, so a
-/// shear column belongs to the tensor shear strain (which moves both eps_xy and eps_yx): 2 mu when elastic.
+/// d(stress)/d(strain) on stored components: column j is the derivative with
+/// respect to stored strain component j, so a shear column belongs to the
+/// tensor shear strain (which moves both eps_xy and eps_yx): 2 mu when elastic.
 template <int Dim>
 using Tangent = Mat<double, tensor_size<Dim>, tensor_size<Dim>>;
 
@@ -34,25 +36,42 @@ template <int Dim, class P>
   return c;
 }
 
-/// Components of a0 : sym(n (x) U) for the global jump U (eq 41), Pa m.
-template <class T, int Dim, class P>
-[[nodiscard]] Tensor<T, Dim> jump_stress(const Elasticity<P>& bulk, const Vec<T, Dim>& n, const Vec<T, Dim>& jump) {
+/// Components of sym(n (x) U).
+template <class T, int Dim>
+[[nodiscard]] FPZ_INLINE Tensor<T, Dim> symmetric_product(const Vec<T, Dim>& n, const Vec<T, Dim>& jump) {
   Tensor<T, Dim> e;
-  if constexpr (Dim == 2) {
-    e << n[0] * jump[0], n[1] * jump[1], 0.5 * (n[0] * jump[1] + n[1] * jump[0]);
-  } else {
-    e << n[0] * jump[0], n[1] * jump[1], n[2] * jump[2], 0.5 * (n[0] * jump[1] + n[1] * jump[0]),
-        0.5 * (n[0] * jump[2] + n[2] * jump[0]), 0.5 * (n[1] * jump[2] + n[2] * jump[1]);
+  for (int k = 0; k < Dim; ++k) e[k] = n[k] * jump[k];
+  e[Dim] = 0.5 * (n[0] * jump[1] + n[1] * jump[0]);
+  if constexpr (Dim == 3) {
+    e[4] = 0.5 * (n[0] * jump[2] + n[2] * jump[0]);
+    e[5] = 0.5 * (n[1] * jump[2] + n[2] * jump[1]);
   }
-  return bulk.template stress<T, Dim>(e);
+  return e;
+}
+
+/// Elastic strain of the bulk, eps - sym(n (x) u)/H (eq 41), for a jump u in
+/// the local frame.
+template <class T, int Dim, class P>
+[[nodiscard]] FPZ_INLINE Tensor<T, Dim> bulk_strain(const Material<P>& m, const State<T, Dim>& s) {
+  if (!s.cracked) return s.strain;
+  Vec<T, Dim> n, jump;
+  for (int k = 0; k < Dim; ++k) {
+    n[k] = s.frame(0, k);
+    jump[k] = s.frame(0, k) * s.crack.jump[0];
+    for (int i = 1; i < Dim; ++i) jump[k] += s.frame(i, k) * s.crack.jump[i];
+  }
+  Tensor<T, Dim> e = symmetric_product<T, Dim>(n, jump);
+  for (int k = 0; k < tensor_size<Dim>; ++k) e[k] = s.strain[k] - e[k] * m.inverse_length;
+  return e;
 }
 
 namespace detail {
 
-/// Elastic traction of the uncracked bulk on the plane, R n.(a0:eps), times the series compliance: the drive of the
-/// zone (m).
+/// Elastic traction of the uncracked bulk on the plane, R n.(a0:eps), times the
+/// series compliance: the drive of the zone (m).
 template <class T, int Dim, class P>
-[[nodiscard]] Vec<T, Dim> drive(const Material<P>& m, const Mat<T, Dim, Dim>& frame, const Tensor<T, Dim>& strain) {
+[[nodiscard]] FPZ_INLINE Vec<T, Dim> drive(const Material<P>& m, const Mat<T, Dim, Dim>& frame,
+                                           const Tensor<T, Dim>& strain) {
   Vec<T, Dim> d = local_traction<T, Dim>(frame, m.bulk.template stress<T, Dim>(strain));
   d[0] *= m.series.normal;
   for (int k = 1; k < Dim; ++k) d[k] *= m.series.shear;
@@ -61,10 +80,8 @@ template <class T, int Dim, class P>
 
 /// eq 41 in total form: sigma = a0 : (eps - sym(n (x) u)/H).
 template <class T, int Dim, class P>
-[[nodiscard]] Tensor<T, Dim> macro_stress(const Material<P>& m, const State<T, Dim>& s) {
-  const Vec<T, Dim> n = s.frame.row(0).transpose();
-  const Vec<T, Dim> jump = s.frame.transpose() * s.crack.jump;
-  return m.bulk.template stress<T, Dim>(s.strain) - jump_stress<T, Dim>(m.bulk, n, jump) * T(m.inverse_length);
+[[nodiscard]] FPZ_INLINE Tensor<T, Dim> macro_stress(const Material<P>& m, const State<T, Dim>& s) {
+  return m.bulk.template stress<T, Dim>(bulk_strain(m, s));
 }
 
 /// The plane search chosen by the options.
@@ -74,9 +91,10 @@ template <int Dim, class T, class P>
                                      : critical_plane<Dim>(m, stress, o.preferred_normal);
 }
 
-/// Opens the crack inside the increment. `paper` takes the plane at the end and the traction at the begin of the
-/// increment (Algorithm 2, lines 11-17); the others find the point of the path at which the plane fails. `scan` only
-/// sets the orientation.
+/// Opens the crack inside the increment. `paper` takes the plane at the end and
+/// the traction at the begin of the increment (Algorithm 2, lines 11-17); the
+/// others find the point of the path at which the plane fails. `scan` only sets
+/// the orientation.
 template <int Dim, class T, class P>
 [[nodiscard]] State<T, Dim> open_crack(const Material<P>& m, const Options& o, const State<T, Dim>& begin,
                                        const Tensor<T, Dim>& end_strain, const Tensor<T, Dim>& end_stress) {
@@ -100,24 +118,25 @@ template <int Dim, class T, class P>
 template <int Dim, class T, class P>
 [[nodiscard]] Report update_cracked(const Material<P>& m, const Options& o, const State<T, Dim>& begin,
                                     const Tensor<T, Dim>& strain, State<T, Dim>& end) {
+  if (!is_finite(begin.crack)) return {Status::invalid_input, 0, 0, false};
   const Vec<T, Dim> d0 = drive<T, Dim>(m, begin.frame, begin.strain);
   const Vec<T, Dim> d1 = drive<T, Dim>(m, begin.frame, strain);
-  CohesiveState<T, Dim> zone;
-  const Report report = integrate_cohesive(m.law, m.series, o, begin.crack, d0, d1, zone);
+  const Report report = integrate_cohesive(m.law, m.series, o, begin.crack, d0, d1, end.crack);
   if (!report.ok()) return report;
   end.cracked = true;
+  if (&end != &begin) end.frame = begin.frame;
   end.strain = strain;
-  end.frame = begin.frame;
-  end.crack = zone;
   end.stress = macro_stress(m, end);
   return report;
 }
 
-/// The update proper, for any scalar. Reads `begin` completely before it writes `end`, and writes only on success.
+/// The update proper, for any scalar. Reads `begin` completely before it writes
+/// `end`, and writes only on success.
 template <int Dim, class T, class P>
 [[nodiscard]] Report update_any(const Material<P>& m, const Options& o, const State<T, Dim>& begin,
                                 const Tensor<T, Dim>& dstrain, State<T, Dim>& end) {
-  const Tensor<T, Dim> strain = begin.strain + dstrain;
+  Tensor<T, Dim> strain;
+  for (int k = 0; k < tensor_size<Dim>; ++k) strain[k] = begin.strain[k] + dstrain[k];
   if (!is_finite(strain)) return {Status::invalid_input, 0, 0, false};
   if (begin.cracked) return update_cracked<Dim>(m, o, begin, strain, end);
   const Tensor<T, Dim> stress = m.bulk.template stress<T, Dim>(strain);
@@ -134,10 +153,12 @@ template <int Dim, class T, class P>
 
 }  // namespace detail
 
-/// Stress-strain update of one point over a strain increment (Algorithm 2). The strain moves on a straight line from
-/// begin.strain to begin.strain + dstrain. On failure `end` equals `begin` and the status says why. begin and end may
-/// be the same object; while a point stays uncracked, only strain, stress and `cracked` of `end` are written. No heap
-/// allocation. T may carry derivatives (Dual, ceres::Jet), as may the material's P: the result then carries the
+/// Stress-strain update of one point over a strain increment (Algorithm 2). The
+/// strain moves on a straight line from begin.strain to begin.strain + dstrain.
+/// On failure `end` equals `begin` and the status says why. begin and end may
+/// be the same object; while a point stays uncracked, only strain, stress and
+/// `cracked` of `end` are written. No heap allocation. T may carry derivatives
+/// (Dual, ceres::Jet), as may the material's P: the result then carries the
 /// derivatives of the discrete update, onset and sub-stepping included.
 template <int Dim, class T, class P>
 [[nodiscard]] Report update(const Material<P>& m, const Options& o, const State<T, Dim>& begin,
@@ -147,7 +168,8 @@ template <int Dim, class T, class P>
   return report;
 }
 
-/// The same, with the tangent d(stress)/d(dstrain) consistent with the discrete update of the chosen integrator.
+/// The same, with the tangent d(stress)/d(dstrain) consistent with the discrete
+/// update of the chosen integrator.
 template <int Dim>
 [[nodiscard]] Report update_with_tangent(const Material<double>& m, const Options& o, const State<double, Dim>& begin,
                                          const Tensor<double, Dim>& dstrain, State<double, Dim>& end,
@@ -162,8 +184,8 @@ template <int Dim>
   if (!out.cracked) {
     tangent = elastic_tangent<Dim>(m.bulk);
   } else if (begin.cracked) {
-    // The plane is fixed: only the local drive (Dim numbers) carries derivatives. dsigma = a0 deps - a0:sym(n (x)
-    // dU)/H.
+    // The plane is fixed: only the local drive (Dim numbers) carries
+    // derivatives. dsigma = a0 deps - a0:sym(n (x) dU)/H.
     using D = Dual<Dim>;
     const CohesiveState<D, Dim> zone = lift<D>(begin.crack);
     const Vec<D, Dim> d0 = convert<D>(detail::drive<double, Dim>(m, begin.frame, begin.strain));
@@ -181,7 +203,7 @@ template <int Dim>
     const Vec<double, Dim> n = begin.frame.row(0).transpose();
     for (int k = 0; k < Dim; ++k) {
       const Vec<double, Dim> r = begin.frame.row(k).transpose();
-      spread.col(k) = jump_stress<double, Dim>(m.bulk, n, r);
+      spread.col(k) = m.bulk.stress<double, Dim>(symmetric_product<double, Dim>(n, r));
       collect.row(k) = spread.col(k).transpose() * (k == 0 ? m.series.normal : m.series.shear);
     }
     collect.template rightCols<N - Dim>() *= 2.0;  // a tensor shear component enters twice
@@ -207,14 +229,15 @@ template <int Dim>
   return report;
 }
 
-/// Out-of-plane stress of a 2-D state: zero in plane stress, nu (sigma_xx + sigma_yy) in plane strain (the jump lies in
-/// the plane).
+/// Out-of-plane stress of a 2-D state: zero in plane stress, nu (sigma_xx +
+/// sigma_yy) in plane strain (the jump lies in the plane).
 template <class T, class P>
 [[nodiscard]] T stress_zz(const Material<P>& m, const State<T, 2>& s) {
   return m.setting == Setting::plane_stress ? T(0.0) : T(m.bulk.nu * (s.stress[0] + s.stress[1]));
 }
 
-/// Out-of-plane strain of a 2-D state: zero in plane strain, -nu/E (sigma_xx + sigma_yy) in plane stress.
+/// Out-of-plane strain of a 2-D state: zero in plane strain, -nu/E (sigma_xx +
+/// sigma_yy) in plane stress.
 template <class T, class P>
 [[nodiscard]] T strain_zz(const Material<P>& m, const State<T, 2>& s) {
   if (m.setting == Setting::plane_strain) return T(0.0);
@@ -222,18 +245,10 @@ template <class T, class P>
   return -m.bulk.nu / young * (s.stress[0] + s.stress[1]);
 }
 
-/// Elastic strain of the bulk, eps - sym(n (x) u)/H.
-template <class T, int Dim, class P>
-[[nodiscard]] Tensor<T, Dim> bulk_strain(const Material<P>& m, const State<T, Dim>& s) {
-  if (!s.cracked) return s.strain;
-  const Elasticity<P> half{P(0.0), P(0.5), P(0.0)};  // 2 mu = 1: the "stress" of sym(n (x) u) is itself
-  const Vec<T, Dim> n = s.frame.row(0).transpose();
-  const Vec<T, Dim> jump = s.frame.transpose() * s.crack.jump;
-  return s.strain - jump_stress<T, Dim>(half, n, jump) * T(m.inverse_length);
-}
-
-/// Stored energy per volume, J/m^3: elastic energy of the bulk plus that of the cohesive zone since onset over H.
-/// work = stored + dissipated along every path. See docs/equations.md for why the zone's part can be slightly negative.
+/// Stored energy per volume, J/m^3: elastic energy of the bulk plus that of the
+/// cohesive zone since onset over H. work = stored + dissipated along every
+/// path. See docs/equations.md for why the zone's part can be slightly
+/// negative.
 template <class T, int Dim, class P>
 [[nodiscard]] T stored_energy(const Material<P>& m, const State<T, Dim>& s) {
   const T bulk = 0.5 * double_dot<Dim>(s.stress, bulk_strain(m, s));
@@ -252,8 +267,8 @@ template <class T, int Dim>
   return s.cracked ? damage(s.crack) : T(0.0);
 }
 
-/// Rotates a state with a rigid rotation Q of the material (sigma' = Q sigma Q^T): objective rotation for updated
-/// formulations.
+/// Rotates a state with a rigid rotation Q of the material (sigma' = Q sigma
+/// Q^T): objective rotation for updated formulations.
 template <class T, int Dim>
 void rotate(State<T, Dim>& s, const Mat<T, Dim, Dim>& q) {
   const auto turn = [&](Tensor<T, Dim>& a) {

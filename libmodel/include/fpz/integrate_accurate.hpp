@@ -5,7 +5,8 @@
 
 namespace fpz::detail {
 
-/// Fraction of the requested tolerance that each sub-step may use: the rest is left for accumulation along a path.
+/// Fraction of the requested tolerance that each sub-step may use: the rest is
+/// left for accumulation along a path.
 inline constexpr double local_tolerance_fraction = 0.05;
 
 template <class T, int Dim>
@@ -19,16 +20,24 @@ struct Yielded {
 
 /// Picks the smooth branch that the motion enters at y.
 template <class T, int Dim, class P>
-void choose_branch(YieldingPhase<T, Dim, P>& phase, const Vec<T, Dim>& y, double strength) {
+void choose_branch(const CohesiveLaw<P>& law, YieldingPhase<T, Dim, P>& phase, const Vec<T, Dim>& y) {
   constexpr int NS = Dim - 1;
+  const double none = negligible_shear * value(law.apex);
+  double shear = 0.0;
+  double heading_shear = 0.0;
+  for (int k = 0; k < NS; ++k) {
+    shear = std::max(shear, std::abs(value(y[k])));
+    heading_shear = std::max(heading_shear, std::abs(value(phase.rate_s()[k])));
+  }
+  phase.branch.shear = shear > none || heading_shear > none * value(law.flexibility_s);
   if constexpr (NS == 1) {
-    const double s = value(y[0]) != 0.0 ? value(y[0]) : value(phase.rate_s()[0]);
+    const double s = shear > none ? value(y[0]) : value(phase.rate_s()[0]);
     phase.branch.shear_sign = s < 0.0 ? -1.0 : 1.0;
   }
   phase.branch.tension = true;
   const RatePoint<T, NS> r = phase.point(y);
   const double normal = value(r.hyp.normal);
-  if (std::abs(normal) > 1e-12 * strength) {
+  if (std::abs(normal) > 1e-12 * value(law.tensile_strength)) {
     phase.branch.tension = normal > 0.0;
     return;
   }
@@ -38,15 +47,16 @@ void choose_branch(YieldingPhase<T, Dim, P>& phase, const Vec<T, Dim>& y, double
   phase.branch.tension = heading >= 0.0;
 }
 
-/// Runs one yielding phase from `fraction` until the increment ends or the point unloads.
+/// Runs one yielding phase from `fraction` until the increment ends or the
+/// point unloads.
 template <class T, int Dim, class P>
 [[nodiscard]] Yielded<T, Dim> run_yielding(const CohesiveLaw<P>& law, YieldingPhase<T, Dim, P>& phase, Vec<T, Dim> y,
                                            T fraction, const Options& options, Report& report) {
   constexpr int NS = Dim - 1;
   Yielded<T, Dim> out;
-  const double strength = value(law.tensile_strength);
+
   const double tolerance = local_tolerance_fraction * options.tolerance;
-  choose_branch(phase, y, strength);
+  choose_branch(law, phase, y);
   RatePoint<T, NS> r = phase.point(y);
   const auto stop = [&](Status s) {
     out.status = s;
@@ -57,7 +67,8 @@ template <class T, int Dim, class P>
   };
   if (!(value(r.h) > 0.0)) return stop(stuck());
   Vec<T, Dim> f = phase.rates(r);
-  // First guess: a fraction of delta0 that an order-4 method can take at this tolerance; never more than what is left.
+  // First guess: a fraction of delta0 that an order-4 method can take at this
+  // tolerance; never more than what is left.
   const double first = 0.5 * value(law.delta0) * std::pow(options.tolerance, 0.25) / (std::abs(value(f[NS])) + 1e-300);
   double step = std::min(1.0 - value(fraction), first);
   while (value(fraction) < 1.0) {
@@ -93,7 +104,8 @@ template <class T, int Dim, class P>
       }
     }
     const Vec<T, Dim> f1 = phase.rates(r1);
-    // Cubic Hermite mid-point and Simpson's rule: fourth order, as the solution is.
+    // Cubic Hermite mid-point and Simpson's rule: fourth order, as the solution
+    // is.
     const Vec<T, Dim> middle = (y + trial.y) * T(0.5) + (f - f1) * T(h / 8.0);
     const RatePoint<T, NS> rm = phase.point(middle);
     const Vec<T, Dim> fm = phase.rates(rm);
@@ -123,7 +135,8 @@ template <class T, int Dim, class P>
   return out;
 }
 
-/// Integrates the zone along the straight drive d0 -> d1 with local error control. `end` is written only on success.
+/// Integrates the zone along the straight drive d0 -> d1 with local error
+/// control. `end` is written only on success.
 template <class T, int Dim, class P>
 [[nodiscard]] Report integrate_accurate(const CohesiveLaw<P>& law, const SeriesCompliance<P>& series,
                                         const Options& options, const CohesiveState<T, Dim>& begin,
@@ -144,7 +157,8 @@ template <class T, int Dim, class P>
     const T entry = yield_entry<Dim>(law, series, z.integrity, q, Vec<T, Dim>(rate * left));
     if (value(entry) < 0.0 || value(fraction) >= 1.0) break;
     fraction += entry * left;
-    // A grazing contact that does not load is passed over; its overshoot is of second order in the distance skipped.
+    // A grazing contact that does not load is passed over; its overshoot is of
+    // second order in the distance skipped.
     if (stalled > 1) {
       fraction += 1e-9;
       stalled = 0;
@@ -157,7 +171,7 @@ template <class T, int Dim, class P>
     for (int k = 0; k < NS; ++k) y[k] = q_entry[k + 1] / cs;
     y[NS] = T(0.0);
     YieldingPhase<T, Dim, P> phase(law, series, z.integrity, rate);
-    choose_branch(phase, y, value(law.tensile_strength));
+    choose_branch(law, phase, y);
     if (value(phase.loading_at(phase.point(y))) <= 0.0) {
       ++stalled;
       continue;
@@ -171,7 +185,8 @@ template <class T, int Dim, class P>
     fraction = yielded.fraction;
     stalled = value(fraction) > before ? 0 : stalled + 1;
     const RatePoint<T, NS> r = phase.point(yielded.y);
-    // The surface and continuity give the plastic jump; a = d(up_n) + d(slip) gives the slip (eq 47).
+    // The surface and continuity give the plastic jump; a = d(up_n) + d(slip)
+    // gives the slip (eq 47).
     const Vec<T, Dim> drive = d0 + rate * fraction + z.offset;
     const T normal = drive[0] - r.c.normal * r.hyp.normal;
     const T slip = yielded.y[NS] - (normal - z.plastic_jump[0]);

@@ -1,4 +1,5 @@
-// Constants of the bulk and of the cohesive law, derived once from the parameters.
+// Constants of the bulk and of the cohesive law, derived once from the
+// parameters.
 #pragma once
 
 #include <cmath>
@@ -8,8 +9,9 @@
 
 namespace fpz {
 
-/// Linear elastic bulk, sigma = lambda tr(eps) I + 2 mu eps on the stored components.
-/// For plane stress `lambda` is the condensed 2 lambda mu / (lambda + 2 mu), so that the in-plane law keeps this form.
+/// Linear elastic bulk, sigma = lambda tr(eps) I + 2 mu eps on the stored
+/// components. For plane stress `lambda` is the condensed 2 lambda mu / (lambda
+/// + 2 mu), so that the in-plane law keeps this form.
 template <class P>
 struct Elasticity {
   P lambda{};
@@ -17,22 +19,20 @@ struct Elasticity {
   P nu{};
 
   template <class T, int Dim>
-  [[nodiscard]] Tensor<T, Dim> stress(const Tensor<T, Dim>& strain) const {
+  [[nodiscard]] FPZ_INLINE Tensor<T, Dim> stress(const Tensor<T, Dim>& strain) const {
+    T trace = strain[0] + strain[1];
+    if constexpr (Dim == 3) trace += strain[2];
+    const T pressure = lambda * trace;
+    const P two_mu = 2.0 * mu;
     Tensor<T, Dim> s;
-    if constexpr (Dim == 2) {
-      const T pressure = lambda * (strain[0] + strain[1]);
-      s << pressure + 2.0 * mu * strain[0], pressure + 2.0 * mu * strain[1], 2.0 * mu * strain[2];
-    } else {
-      const T pressure = lambda * (strain[0] + strain[1] + strain[2]);
-      const P m2 = 2.0 * mu;
-      s << pressure + m2 * strain[0], pressure + m2 * strain[1], pressure + m2 * strain[2], m2 * strain[3],
-          m2 * strain[4], m2 * strain[5];
-    }
+    for (int k = 0; k < Dim; ++k) s[k] = pressure + two_mu * strain[k];
+    for (int k = Dim; k < tensor_size<Dim>; ++k) s[k] = two_mu * strain[k];
     return s;
   }
 };
 
-/// Constants of the mixed-mode cohesive law (eq 44-50), with the reciprocals that the inner loops multiply by.
+/// Constants of the mixed-mode cohesive law (eq 44-50), with the reciprocals
+/// that the inner loops multiply by.
 template <class P>
 struct CohesiveLaw {
   P kn{};                ///< Kn, Pa/m
@@ -42,16 +42,21 @@ struct CohesiveLaw {
   P tan_phi{};
   P tan_psi{};
   P delta0{};         ///< m
-  P apex{};           ///< A = c0 - sigma_t0 tan phi, Pa: half the distance scale of the yield hyperbola
+  P apex{};           ///< A = c0 - sigma_t0 tan phi, Pa: the scale of the yield hyperbola
   P flexibility_n{};  ///< 1/Kn, m/Pa
   P flexibility_s{};  ///< 1/Ks, m/Pa
   P cot_phi{};
   P inverse_delta0{};  ///< 1/m
+  P inverse_apex{};    ///< 1/Pa
+  P normal_0{};        ///< on the surface tau_n = normal_0 - cot(phi) R with R = sqrt(|tau_s|^2 + A^2)
+  P flow_0{};          ///< on the surface m_n = tan(psi) (c0 - tau_n tan(psi)) = flow_0 + flow_1 R
+  P flow_1{};
 };
 
-/// Compliance in series with the cohesive zone, in the local frame: jump = drive - compliance * traction.
-/// The elastic bulk of an RVE gives B^-1 = H diag(1/(lambda+2mu), 1/mu, 1/mu) (model.md 1); zero means the jump itself
-/// is driven.
+/// Compliance in series with the cohesive zone, in the local frame: jump =
+/// drive - compliance * traction. The elastic bulk of an RVE gives B^-1 = H
+/// diag(1/(lambda+2mu), 1/mu, 1/mu) (model.md 1); zero means the jump itself is
+/// driven.
 template <class P>
 struct SeriesCompliance {
   P normal{};  ///< m/Pa
@@ -88,10 +93,15 @@ template <class P>
   law.flexibility_s = 1.0 / p.shear_stiffness;
   law.cot_phi = 1.0 / law.tan_phi;
   law.inverse_delta0 = 1.0 / p.delta0;
+  law.inverse_apex = 1.0 / law.apex;
+  law.normal_0 = law.cohesion * law.cot_phi;
+  law.flow_0 = law.tan_psi * (law.cohesion - law.tan_psi * law.normal_0);
+  law.flow_1 = law.tan_psi * law.tan_psi * law.cot_phi;
   return law;
 }
 
-/// Replaces the RVE length H (m); everything else is kept. Cheap: two divisions.
+/// Replaces the RVE length H (m); everything else is kept. Cheap: two
+/// divisions.
 template <class P>
 void set_rve_length(Material<P>& m, const P& length) {
   m.rve_length = length;
@@ -100,7 +110,8 @@ void set_rve_length(Material<P>& m, const P& length) {
   m.series.shear = length / m.bulk.mu;
 }
 
-/// Derives the constants. The parameters must have passed validate(); this function does not check them again.
+/// Derives the constants. The parameters must have passed validate(); this
+/// function does not check them again.
 template <class P>
 [[nodiscard]] Material<P> make_material(const BasicParameters<P>& p, Setting setting) {
   using std::cos;
@@ -120,8 +131,8 @@ template <class P>
   return m;
 }
 
-/// The plain values of a law or compliance that carries derivatives: solvers iterate on these. A plain one is passed
-/// through.
+/// The plain values of a law or compliance that carries derivatives: solvers
+/// iterate on these. A plain one is passed through.
 template <class P>
 [[nodiscard]] CohesiveLaw<double> values(const CohesiveLaw<P>& a) {
   return {value(a.kn),
@@ -135,7 +146,11 @@ template <class P>
           value(a.flexibility_n),
           value(a.flexibility_s),
           value(a.cot_phi),
-          value(a.inverse_delta0)};
+          value(a.inverse_delta0),
+          value(a.inverse_apex),
+          value(a.normal_0),
+          value(a.flow_0),
+          value(a.flow_1)};
 }
 [[nodiscard]] inline const CohesiveLaw<double>& values(const CohesiveLaw<double>& a) { return a; }
 template <class P>

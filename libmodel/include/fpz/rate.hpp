@@ -1,22 +1,28 @@
-// The rate problem of a cracked point on its yield surface, as an autonomous ODE.
+// The rate problem of a cracked point on its yield surface, as an autonomous
+// ODE.
 //
-// With the drive q moving at a constant rate q' (per unit of the increment), y = (tau_s, a) obeys (model.md 3.1, eq
-// 63-67)
+// With the drive q moving at a constant rate q' (per unit of the increment), y
+// = (tau_s, a) obeys (model.md 3.1, eq 63-67)
 //   c_n dtau_n/dtau_s . tau_s' + (m_n/D - w tau_n c_n,w / delta0) a' = q_n'
-//   c_s tau_s'                 + (tau_s/D - w tau_s c_s,w / delta0) a' = q_s',      D = m_n + |tau_s|.
-// Eliminating tau_s' leaves  h a' = numerator;  h > 0 is exactly uniqueness of the rate problem (no snap-back),
-// numerator > 0 is loading.
+//   c_s tau_s'                 + (tau_s/D - w tau_s c_s,w / delta0) a' = q_s',
+//   D = m_n + |tau_s|.
+// Eliminating tau_s' leaves  h a' = numerator;  h > 0 is exactly uniqueness of
+// the rate problem (no snap-back), numerator > 0 is loading.
 #pragma once
 
 #include "fpz/cohesive_state.hpp"
 
 namespace fpz::detail {
 
-/// Which smooth piece of the rate equations holds. `shear_sign` is used with one shear component only.
+/// Which smooth piece of the rate equations holds.
 struct Branch {
   bool tension = true;
-  double shear_sign = 1.0;
+  double shear_sign = 1.0;  ///< sign of tau_s, with one shear component
+  bool shear = true;        ///< false: tau_s is zero to rounding and stays so, and |tau_s| counts as constant
 };
+
+/// Shear tractions below this fraction of A are rounding.
+inline constexpr double negligible_shear = 1e-12;
 
 template <class T, int NS>
 struct RatePoint {
@@ -31,21 +37,27 @@ struct RatePoint {
   T m12;           ///< coefficient of a' in the normal equation
   Shear m22;       ///< coefficient of a' in the shear equation
   T h;             ///< rate modulus: > 0 where the rate problem has one solution
-  T ratio;         ///< c_n / c_s
+  T inverse_cs;
+  T inverse_radius;
+  T ratio;  ///< c_n / c_s
 };
 
-/// Coefficients of the rate equations at (tau_s, w). `direction`: where tau_s heads, used only at tau_s = 0.
+/// Coefficients of the rate equations at (tau_s, w). `direction`: where tau_s
+/// heads, used only at tau_s = 0.
 template <int NS, class T, class P>
-[[nodiscard]] RatePoint<T, NS> rate_point(const CohesiveLaw<P>& law, const SeriesCompliance<P>& series,
-                                          const Branch& branch, const Vec<T, NS>& tau_s, const T& w,
-                                          const Vec<T, NS>& direction) {
+[[nodiscard]] FPZ_INLINE RatePoint<T, NS> rate_point(const CohesiveLaw<P>& law, const SeriesCompliance<P>& series,
+                                                     const Branch& branch, const Vec<T, NS>& tau_s, const T& w,
+                                                     const Vec<T, NS>& direction) {
   using std::sqrt;
   RatePoint<T, NS> r;
   r.w = w;
   const T s2 = squared_norm(tau_s);
   r.hyp = hyperbola(law, s2);
   r.c = scaled_compliance(law, series, w, branch.tension);
-  if constexpr (NS == 1) {
+  if (!branch.shear) {
+    r.shear = T(0.0);
+    r.unit = Vec<T, NS>::Constant(T(0.0));
+  } else if constexpr (NS == 1) {
     r.unit[0] = T(branch.shear_sign);
     r.shear = branch.shear_sign * tau_s[0];
   } else if (value(s2) > 0.0) {
@@ -57,12 +69,19 @@ template <int NS, class T, class P>
     r.unit = value(d2) > 0.0 ? Vec<T, NS>(direction / T(sqrt(d2))) : Vec<T, NS>(Vec<T, NS>::Constant(T(0.0)));
   }
   const T sum = r.hyp.flow_n + r.shear;
-  r.inv = value(sum) > 0.0 ? T(1.0 / sum) : T(0.0);
-  r.normal_s = tau_s * T(-law.cot_phi / r.hyp.radius);
+  const bool flows = value(sum) > 0.0;
+  // One division for the three reciprocals that the rates need.
+  const T radius_shear = r.hyp.radius * r.c.shear;
+  const T joint = 1.0 / (flows ? T(radius_shear * sum) : radius_shear);
+  r.inv = flows ? T(joint * radius_shear) : T(0.0);
+  const T rest = flows ? T(joint * sum) : joint;
+  r.inverse_cs = rest * r.hyp.radius;
+  r.inverse_radius = rest * r.c.shear;
+  r.normal_s = tau_s * T(-law.cot_phi * r.inverse_radius);
   const T w_a = integrity_slope(law, w);
   r.m12 = r.hyp.flow_n * r.inv + w_a * r.c.normal_slope * r.hyp.normal;
   r.m22 = tau_s * T(r.inv + w_a * r.c.shear_slope);
-  r.ratio = r.c.normal / r.c.shear;
+  r.ratio = r.c.normal * r.inverse_cs;
   r.h = r.m12;
   for (int k = 0; k < NS; ++k) r.h -= r.ratio * r.normal_s[k] * r.m22[k];
   return r;
@@ -70,7 +89,7 @@ template <int NS, class T, class P>
 
 /// h a' for a drive rate; positive means plastic loading.
 template <class T, int NS>
-[[nodiscard]] T loading(const RatePoint<T, NS>& r, const T& rate_n, const Vec<T, NS>& rate_s) {
+[[nodiscard]] FPZ_INLINE T loading(const RatePoint<T, NS>& r, const T& rate_n, const Vec<T, NS>& rate_s) {
   T n = rate_n;
   for (int k = 0; k < NS; ++k) n -= r.ratio * r.normal_s[k] * rate_s[k];
   return n;
@@ -87,11 +106,12 @@ template <class T, int NS>
 [[nodiscard]] Rates<T, NS> solve_rates(const RatePoint<T, NS>& r, const T& rhs_n, const Vec<T, NS>& rhs_s) {
   Rates<T, NS> f;
   f.a = loading(r, rhs_n, rhs_s) / r.h;
-  for (int k = 0; k < NS; ++k) f.tau_s[k] = (rhs_s[k] - r.m22[k] * f.a) / r.c.shear;
+  for (int k = 0; k < NS; ++k) f.tau_s[k] = (rhs_s[k] - r.m22[k] * f.a) * r.inverse_cs;
   return f;
 }
 
-/// Jacobian d(f)/d(tau_s, a) of the rates f: J = -M^-1 (dM/dy . f) with the coefficient matrix M of the rate equations.
+/// Jacobian d(f)/d(tau_s, a) of the rates f: J = -M^-1 (dM/dy . f) with the
+/// coefficient matrix M of the rate equations.
 template <class T, int NS, class P>
 [[nodiscard]] Mat<T, NS + 1, NS + 1> rate_jacobian(const CohesiveLaw<P>& law, const RatePoint<T, NS>& r,
                                                    const Vec<T, NS>& tau_s, const Rates<T, NS>& f) {
@@ -105,8 +125,8 @@ template <class T, int NS, class P>
     g_dot += r.normal_s[k] * f.tau_s[k];
   }
   const T inv2 = r.inv * r.inv;
-  const T radius2 = r.hyp.radius * r.hyp.radius;
-  const T curvature = -law.cot_phi / r.hyp.radius;
+  const T inverse_radius2 = r.inverse_radius * r.inverse_radius;
+  const T curvature = -law.cot_phi * r.inverse_radius;
   Mat<T, NS + 1, NS + 1> jac;
   for (int j = 0; j <= NS; ++j) {  // column j: derivative with respect to y_j of the products M(y) f
     T dn;
@@ -115,7 +135,7 @@ template <class T, int NS, class P>
       const T flow_j = -tan2_psi * r.normal_s[j];
       const T fraction_j = (flow_j * r.shear - r.hyp.flow_n * r.unit[j]) * inv2;
       const T inv_j = -(flow_j + r.unit[j]) * inv2;
-      dn = r.c.normal * curvature * (f.tau_s[j] - tau_s[j] * s_dot / radius2) +
+      dn = r.c.normal * curvature * (f.tau_s[j] - tau_s[j] * s_dot * inverse_radius2) +
            f.a * (fraction_j + w_a * r.c.normal_slope * r.normal_s[j]);
       for (int k = 0; k < NS; ++k) {
         ds[k] = f.a * tau_s[k] * inv_j;
@@ -132,11 +152,12 @@ template <class T, int NS, class P>
   return jac;
 }
 
-/// Fraction x >= 0 at which the straight path (n, s) + x (dn, ds) leaves  |s|^2 + a^2 <= (c - n tan_phi)^2  on the
-/// physical branch, started inside (or on the surface, to rounding). Negative: it never leaves. Closed form.
+/// Fraction x >= 0 at which the straight path (n, s) + x (dn, ds) leaves  |s|^2
+/// + a^2 <= (c - n tan_phi)^2  on the physical branch, started inside (or on
+/// the surface, to rounding). Negative: it never leaves. Closed form.
 template <int NS, class T, class P>
-[[nodiscard]] T exit_fraction(const P& tan_phi, const T& c, const T& a, const T& n, const Vec<T, NS>& s, const T& dn,
-                              const Vec<T, NS>& ds) {
+[[nodiscard]] FPZ_INLINE T exit_fraction(const P& tan_phi, const T& c, const T& a, const T& n, const Vec<T, NS>& s,
+                                         const T& dn, const Vec<T, NS>& ds) {
   using std::sqrt;
   const T l = c - n * tan_phi;
   const T dl = -dn * tan_phi;
@@ -148,19 +169,21 @@ template <int NS, class T, class P>
     qb += s[k] * ds[k];
     qc += s[k] * s[k];
   }
+  if (value(qc) > 0.0) qc = T(0.0);  // outside by rounding: the start is on the surface
   const T disc = qb * qb - qa * qc;  // qa x^2 + 2 qb x + qc = 0
   if (value(disc) < 0.0) return T(-1.0);
-  if (value(qb) > 0.0) return value(qc) > 0.0 ? T(0.0) : T(-qc / (qb + sqrt(disc)));
-  if (value(qa) <= 0.0 || value(disc) == 0.0) return T(-1.0);
-  return (sqrt(disc) - qb) / qa;
+  if (value(qb) > 0.0) return -qc / (qb + sqrt(disc));
+  if (value(qa) <= 0.0) return T(-1.0);
+  return value(disc) > 0.0 ? T((sqrt(disc) - qb) / qa) : T(-qb / qa);
 }
 
-/// First fraction in [0, 1] at which the elastic drive q0 + x dq reaches the yield surface, or a negative value.
-/// Scaled tractions in tension, plain ones in compression, so that w = 0 is no special case; the path has a kink where
+/// First fraction in [0, 1] at which the elastic drive q0 + x dq reaches the
+/// yield surface, or a negative value. Scaled tractions in tension, plain ones
+/// in compression, so that w = 0 is no special case; the path has a kink where
 /// q_n = 0.
 template <int Dim, class T, class P>
-[[nodiscard]] T yield_entry(const CohesiveLaw<P>& law, const SeriesCompliance<P>& series, const T& w,
-                            const Vec<T, Dim>& q0, const Vec<T, Dim>& dq) {
+[[nodiscard]] FPZ_INLINE T yield_entry(const CohesiveLaw<P>& law, const SeriesCompliance<P>& series, const T& w,
+                                       const Vec<T, Dim>& q0, const Vec<T, Dim>& dq) {
   constexpr int NS = Dim - 1;
   T from = T(0.0);
   T to = T(1.0);

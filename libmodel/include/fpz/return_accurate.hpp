@@ -1,7 +1,9 @@
-// The `accurate` integrator: elastic phases in closed form, yielding phases by the adaptive Rosenbrock method RODAS of
-// order 4(3) (Hairer & Wanner, Solving Ordinary Differential Equations II, section IV.7; stiffly accurate and L-stable)
-// on the rate equations of rate.hpp. The yield condition and traction continuity hold to rounding at every accepted
-// step, because the ODE runs on the yield surface itself.
+// The `accurate` integrator: elastic phases in closed form, yielding phases by
+// the adaptive Rosenbrock method RODAS of order 4(3) (Hairer & Wanner, Solving
+// Ordinary Differential Equations II, section IV.7; stiffly accurate and
+// L-stable) on the rate equations of rate.hpp. The yield condition and traction
+// continuity hold to rounding at every accepted step, because the ODE runs on
+// the yield surface itself.
 #pragma once
 
 #include "fpz/options.hpp"
@@ -10,7 +12,8 @@
 
 namespace fpz::detail {
 
-/// One yielding phase: state y = (tau_s, a) relative to the integrity at its begin, driven at constant rate.
+/// One yielding phase: state y = (tau_s, a) relative to the integrity at its
+/// begin, driven at constant rate.
 template <class T, int Dim, class P>
 class YieldingPhase {
  public:
@@ -37,13 +40,15 @@ class YieldingPhase {
   [[nodiscard]] Y rates(const RatePoint<T, NS>& r) const { return pack(solve_rates(r, rate_n_, rate_s_)); }
   [[nodiscard]] const Shear& rate_s() const { return rate_s_; }
 
-  /// Dissipated energy per unit of the increment at a point with inelastic rate a'.
+  /// Dissipated energy per unit of the increment at a point with inelastic rate
+  /// a'.
   [[nodiscard]] T power(const RatePoint<T, NS>& r, const T& a_rate) const {
     return r.w * a_rate * dissipation_density(law_, r.hyp, r.shear, r.inv);
   }
 
-  /// One RODAS step of size h from y0, whose coefficients `r0` and rates `f0` are given. Undefined where a stage meets
-  /// h <= 0: the rate problem has no unique solution there.
+  /// One RODAS step of size h from y0, whose coefficients `r0` and rates `f0`
+  /// are given. Undefined where a stage meets h <= 0: the rate problem has no
+  /// unique solution there.
   [[nodiscard]] RodasStep<T, Dim> advance(const Y& y0, const RatePoint<T, NS>& r0, const Y& f0, const T& h) const {
     Rates<T, NS> f;
     f.tau_s = f0.template head<NS>();
@@ -56,8 +61,9 @@ class YieldingPhase {
     });
   }
 
-  /// Error of a step against the tolerance on t/sigma_t0 and D. The normal jump keeps a weight when w -> 0, because the
-  /// position of a closed crack depends on it.
+  /// Error of a step against the tolerance on t/sigma_t0 and D. The normal jump
+  /// keeps a weight when w -> 0, because the position of a closed crack depends
+  /// on it.
   [[nodiscard]] double error_norm(const RatePoint<T, NS>& r, const Y& error) const {
     const double w = value(r.w);
     const double contact = value(r.c.normal) / (value(law_.flexibility_n) + value(series_.normal) + 1e-300);
@@ -73,12 +79,13 @@ class YieldingPhase {
     return std::max({std::sqrt(shear2) * weight, std::abs(normal) * weight, damage_error});
   }
 
-  /// Smooth functions that are positive while the branch holds: loading, sign of tau_n, sign of the shear.
+  /// Smooth functions that are positive while the branch holds: loading, sign
+  /// of tau_n, sign of the shear.
   static constexpr int event_count = 3;
   [[nodiscard]] T event(int which, const RatePoint<T, NS>& r) const {
     if (which == 0) return loading_at(r);
     if (which == 1) return branch.tension ? r.hyp.normal : T(-r.hyp.normal);
-    return NS == 1 ? r.shear : T(1.0);
+    return NS == 1 && branch.shear ? r.shear : T(1.0);
   }
 
  private:
@@ -89,7 +96,8 @@ class YieldingPhase {
   Shear rate_s_;
 };
 
-/// Step length at which event `which` passes zero inside (0, h), and the derivative carried over to duals.
+/// Step length at which event `which` passes zero inside (0, h), and the
+/// derivative carried over to duals.
 template <class T, int Dim, class P>
 [[nodiscard]] T locate_event(const YieldingPhase<T, Dim, P>& phase, const Vec<T, Dim>& y0,
                              const RatePoint<T, Dim - 1>& r0, const Vec<T, Dim>& f0, double h, int which) {

@@ -1,5 +1,6 @@
-// Algorithm 1 (a) and the traction-continuity loop of Algorithm 2, as printed with the slips repaired (model.md 2).
-// Kept as the named baseline `paper`. It has a small radius of convergence (model.md 3.5): failure is reported, never
+// Algorithm 1 (a) and the traction-continuity loop of Algorithm 2, as printed
+// with the slips repaired (model.md 2). Kept as the named baseline `paper`. It
+// has a small radius of convergence (model.md 3.5): failure is reported, never
 // returned as a result.
 #pragma once
 
@@ -47,7 +48,8 @@ template <class T, int Dim, class P>
   return d;
 }
 
-/// Algorithm 1 on a jump increment `du`: traction, plastic jump, slip and integrity are updated in place.
+/// Algorithm 1 on a jump increment `du`: traction, plastic jump, slip and
+/// integrity are updated in place.
 template <class T, int Dim, class P>
 void paper_return(const CohesiveLaw<P>& law, CohesiveState<T, Dim>& z, const Vec<T, Dim>& du) {
   using std::sqrt;
@@ -76,7 +78,8 @@ void paper_return(const CohesiveLaw<P>& law, CohesiveState<T, Dim>& z, const Vec
   z.integrity -= dd;  // step 11
 }
 
-/// Diagonal-plus-rank-one tangent K^t of eq 67 at the current state, or the secant stiffness inside the yield surface.
+/// Diagonal-plus-rank-one tangent K^t of eq 67 at the current state, or the
+/// secant stiffness inside the yield surface.
 template <class T, int Dim, class P>
 [[nodiscard]] Mat<T, Dim, Dim> paper_tangent(const CohesiveLaw<P>& law, const CohesiveState<T, Dim>& z) {
   const PaperDerivatives<T, Dim> d = paper_derivatives(law, z.traction, z.integrity);
@@ -91,8 +94,9 @@ template <class T, int Dim, class P>
   return kt;
 }
 
-/// Algorithm 2, lines 17-37, on the drive d0 -> d1 (traction of the uncracked bulk times the series compliance).
-/// With zero compliance the jump itself is driven and Algorithm 1 runs once.
+/// Algorithm 2, lines 17-37, on the drive d0 -> d1 (traction of the uncracked
+/// bulk times the series compliance). With zero compliance the jump itself is
+/// driven and Algorithm 1 runs once.
 template <class T, int Dim, class P>
 [[nodiscard]] Report integrate_paper(const CohesiveLaw<P>& law, const SeriesCompliance<P>& series,
                                      const Options& options, const CohesiveState<T, Dim>& begin, const Vec<T, Dim>& d0,
@@ -139,7 +143,8 @@ template <class T, int Dim, class P>
     T ts2 = T(0.0);
     for (int k = 1; k < Dim; ++k) ts2 += z.traction[k] * z.traction[k];
     Mat<T, Dim, Dim> c = Mat<T, Dim, Dim>::Constant(T(0.0));
-    // Line 29: eq 67 holds while the point yields; inside the surface the tangent is the secant stiffness.
+    // Line 29: eq 67 holds while the point yields; inside the surface the
+    // tangent is the secant stiffness.
     const double inside = -1e-9 * value(law.cohesion) * value(law.cohesion);
     if (value(yield_paper(law, z.traction[0], ts2, z.integrity)) > inside * value(z.integrity) * value(z.integrity)) {
       c = paper_tangent(law, z);

@@ -1,0 +1,87 @@
+#include "fpz/batch.hpp"
+
+#include <stdexcept>
+
+#ifdef _OPENMP
+#include <omp.h>
+#endif
+
+namespace fpz {
+
+namespace {
+
+constexpr std::ptrdiff_t chunk = 256;
+
+int max_threads() {
+#ifdef _OPENMP
+  return omp_get_max_threads();
+#else
+  return 1;
+#endif
+}
+
+/// Combines two reports of disjoint sets of points.
+void merge(BatchReport& into, const BatchReport& part) {
+  if (part.first_failed < into.first_failed) {
+    into.first_failed = part.first_failed;
+    into.first_status = part.first_status;
+  }
+  into.failed += part.failed;
+  into.cracked += part.cracked;
+  into.new_cracks += part.new_cracks;
+  into.iterations += part.iterations;
+}
+
+void count(BatchReport& report, std::size_t index, const Report& point, bool cracked) {
+  report.iterations += point.iterations;
+  report.cracked += cracked ? 1 : 0;
+  if (point.ok()) {
+    report.new_cracks += point.onset ? 1 : 0;
+    return;
+  }
+  ++report.failed;
+  if (index < report.first_failed) {
+    report.first_failed = index;
+    report.first_status = point.status;
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+BatchReport update_batch(const Material<double>& m, const Options& o, std::span<const State<double, Dim>> begin,
+                         std::span<const Tensor<double, Dim>> strain_increments, std::span<State<double, Dim>> end,
+                         std::span<Tangent<Dim>> tangents, int threads) {
+  const std::size_t size = begin.size();
+  if (strain_increments.size() != size || end.size() != size || (!tangents.empty() && tangents.size() != size)) {
+    throw std::invalid_argument("update_batch: begin, strain_increments, end (and tangents) must have the same length");
+  }
+  BatchReport total;
+  const auto points = static_cast<std::ptrdiff_t>(size);
+  const int team = threads > 0 ? threads : max_threads();
+  // Cracked points cost twenty times an elastic one and come in clusters: small dynamic chunks share them out.
+#pragma omp parallel num_threads(team) if (team > 1 && points > chunk)
+  {
+    BatchReport part;
+#pragma omp for schedule(dynamic, chunk) nowait
+    for (std::ptrdiff_t i = 0; i < points; ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      const Report point = tangents.empty()
+                               ? update<Dim>(m, o, begin[k], strain_increments[k], end[k])
+                               : update_with_tangent<Dim>(m, o, begin[k], strain_increments[k], end[k], tangents[k]);
+      count(part, k, point, end[k].cracked);
+    }
+#pragma omp critical(fpz_update_batch)
+    merge(total, part);
+  }
+  return total;
+}
+
+template BatchReport update_batch<2>(const Material<double>&, const Options&, std::span<const State<double, 2>>,
+                                     std::span<const Tensor<double, 2>>, std::span<State<double, 2>>,
+                                     std::span<Tangent<2>>, int);
+template BatchReport update_batch<3>(const Material<double>&, const Options&, std::span<const State<double, 3>>,
+                                     std::span<const Tensor<double, 3>>, std::span<State<double, 3>>,
+                                     std::span<Tangent<3>>, int);
+
+}  // namespace fpz
