@@ -199,6 +199,11 @@ Panel HistoryCurves::stress_strain(const std::string& component) const {
   return p;
 }
 
+bool HistoryCurves::is_active(const std::string& component) const {
+  const auto any = [](const std::vector<double>& v) { return std::any_of(v.begin(), v.end(), [](double x) { return x != 0.0; }); };
+  return any(table_.at("eps_" + component)) && any(table_.at("sig_" + component));
+}
+
 Panel HistoryCurves::normal_traction() const {
   const auto& jump = table_.at("u_n");
   Panel p;
@@ -248,11 +253,12 @@ Panel HistoryCurves::energies() const {
   Panel p;
   p.x_label = "Time (stages)";
   p.y_label = "Energy (J/m^3)";
+  p.key = "at graph 0.5,-0.255 center top horizontal maxrows 1";
   const auto add = [&](const char* column, const char* title, const std::string& style) {
     const auto* energy = table_.find(column);
     if (energy) p.curves.push_back({over_time([&](std::size_t i) { return (*energy)[i]; }), style, title});
   };
-  add("energy_work", "work of the stress", "lines lw 5 lc rgb '#BBBBBB'");
+  add("energy_work", "work", "lines lw 5 lc rgb '#BBBBBB'");
   add("energy_dissipated", "dissipated", line("#D55E00"));
   add("energy_stored", "stored", line("#0072B2"));
   return p;

@@ -54,6 +54,8 @@ class HistoryCurves {
 
   [[nodiscard]] int stages() const { return stages_; }
   [[nodiscard]] Panel stress_strain(const std::string& component) const;
+  /// Are stress and strain of the component anything but zero?
+  [[nodiscard]] bool is_active(const std::string& component) const;
   [[nodiscard]] Panel normal_traction() const;
   [[nodiscard]] Panel shear_traction() const;
   [[nodiscard]] Panel loading_path() const;

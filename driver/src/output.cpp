@@ -15,9 +15,9 @@ std::string reason() { return std::strerror(errno); }
 
 /// Hidden, unique to this process, and with the same ending, because gnuplot users may go by it.
 fs::path temporary_name(const fs::path& file) {
-  fs::path name = file.parent_path() / ("." + file.stem().string() + "." + std::to_string(::getpid()));
-  name += file.extension();
-  return name;
+  std::string name = ".";
+  name.append(file.stem().string()).append(".").append(std::to_string(::getpid())).append(file.extension().string());
+  return file.parent_path() / name;
 }
 
 void write_all(const fs::path& file, std::string_view text) {

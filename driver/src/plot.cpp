@@ -130,6 +130,18 @@ class Picture {
     }
   }
 
+  /// One legend for all panels of a multiplot, under its title: the key of an empty plot, because a key is never wider than its plot.
+  void common_legend(const Panel& panel) {
+    gp_ << "set lmargin at screen 0.02\nset rmargin at screen 0.98\nset bmargin at screen 0.905\nset tmargin at screen 0.955\n"
+        << "unset border\nunset tics\nunset xlabel\nunset ylabel\nunset label 50\nset key center center horizontal maxrows 1\n"
+        << "set xrange [0:1]\nset yrange [0:1]\n";
+    std::string command;
+    for (const Curve& c : panel.curves) {
+      if (!c.title.empty()) command += (command.empty() ? "plot NaN with " : ", NaN with ") + c.style + " title " + quoted(c.title);
+    }
+    if (!command.empty()) gp_ << command << "\n";
+  }
+
   Gnuplot& raw() { return gp_; }
 
  private:
@@ -143,6 +155,9 @@ class Picture {
   Gnuplot& gp_;
   Format format_;
 };
+
+/// Drawn only where they are not zero throughout.
+constexpr std::array<const char*, 4> other_components = {"yy", "zz", "xz", "yz"};
 
 struct Job {
   std::string name;  ///< file name without its ending
@@ -174,12 +189,12 @@ Job four_panels(const HistoryCurves& curves, const std::string& title) {
             const std::array<const char*, 4> letters = {"(A)", "(B)", "(C)", "(D)"};
             p.raw() << "set multiplot layout 2,2 title " << quoted(title) << " noenhanced font ',17' margins 0.095,0.98,0.09,0.865 "
                     << "spacing 0.115,0.135\n";
-            panels[0].key = "at screen 0.5,0.94 center top horizontal maxrows 1";
             for (std::size_t k = 0; k < 4; ++k) {
-              panels[k].legend = k == 0;  // one legend for all
+              panels[k].legend = false;
               p.letter(letters[k]);
               p.draw(panels[k]);
             }
+            p.common_legend(panels[0]);
             p.raw() << "unset multiplot\n";
           }};
 }
@@ -253,6 +268,11 @@ std::vector<Job> jobs(const HistoryCurves& curves, const PlotRequest& request) {
                           single("traction_normal", curves.normal_traction(), t),
                           single("traction_shear", curves.shear_traction(), t),
                           damage_energy(curves, t)};
+  for (const char* component : other_components) {
+    if (curves.is_active(component)) {
+      all.push_back(single(std::string("stress_strain_") + component, curves.stress_strain(component), t));
+    }
+  }
   if (request.surface) all.push_back(yield_surface(curves, *request.surface, t));
   return all;
 }
@@ -277,7 +297,8 @@ void draw_one(const Job& job, Format format, const fs::path& file, bool force) {
 std::vector<fs::path> picture_files(const fs::path& folder, bool with_surface) {
   std::vector<fs::path> files;
   for (const char* name : {"loading_path", "four_panels", "stress_strain_xx", "stress_strain_xy", "traction_normal",
-                           "traction_shear", "damage_energy", "yield_surface"}) {
+                           "traction_shear", "damage_energy", "stress_strain_yy", "stress_strain_zz", "stress_strain_xz",
+                           "stress_strain_yz", "yield_surface"}) {
     if (!with_surface && std::string_view(name) == "yield_surface") continue;
     for (const char* ending : {".png", ".svg"}) files.push_back(folder / (std::string(name) + ending));
   }

@@ -29,7 +29,7 @@ struct PlotOutcome {
   std::vector<std::string> warnings;
 };
 
-/// The files that plot_history would write.
+/// The files that plot_history may write; stress-strain curves of further components only where they are not zero.
 [[nodiscard]] std::vector<std::filesystem::path> picture_files(const std::filesystem::path& folder, bool with_surface);
 
 /// Draws all pictures. A missing gnuplot or a picture that did not come out is a warning, never an exception; a file that exists
