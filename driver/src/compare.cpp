@@ -21,9 +21,9 @@ enum class Kind { stress, energy, damage, jump, strain, ignored };
 /// The name in history.csv of a reference's column; empty when it is none of ours.
 std::string our_name(const std::string& name) {
   static const std::map<std::string, std::string, std::less<>> aliases = {
-      {"T", "time"},     {"sxx", "sig_xx"}, {"syy", "sig_yy"}, {"szz", "sig_zz"}, {"sxy", "sig_xy"}, {"sxz", "sig_xz"},
-      {"syz", "sig_yz"}, {"tn", "t_n"},     {"ts1", "t_s1"},   {"ts2", "t_s2"},   {"un", "u_n"},     {"us1", "u_s1"},
-      {"us2", "u_s2"}};
+      {"T", "time"},     {"sxx", "sig_xx"}, {"syy", "sig_yy"}, {"szz", "sig_zz"}, {"sxy", "sig_xy"},
+      {"sxz", "sig_xz"}, {"syz", "sig_yz"}, {"tn", "t_n"},     {"ts1", "t_s1"},   {"ts2", "t_s2"},
+      {"un", "u_n"},     {"us1", "u_s1"},   {"us2", "u_s2"}};
   const auto alias = aliases.find(name);
   if (alias != aliases.end()) return alias->second;
   return find_column(name) ? name : std::string();
@@ -88,10 +88,14 @@ class Scales {
   }
   [[nodiscard]] double tolerance(Kind kind) const {
     switch (kind) {
-      case Kind::damage: return options_.damage_tolerance;
-      case Kind::jump: return options_.jump_tolerance;
-      case Kind::strain: return options_.strain_tolerance;
-      default: return options_.stress_tolerance;
+      case Kind::damage:
+        return options_.damage_tolerance;
+      case Kind::jump:
+        return options_.jump_tolerance;
+      case Kind::strain:
+        return options_.strain_tolerance;
+      default:
+        return options_.stress_tolerance;
     }
   }
 
@@ -100,8 +104,9 @@ class Scales {
   std::map<Kind, double> scale_;
 };
 
-ColumnDifference compare_column(const std::string& name, const std::vector<double>& ours, const std::vector<double>& theirs,
-                                const std::vector<double>& times, const std::vector<Place>& places, double scale) {
+ColumnDifference compare_column(const std::string& name, const std::vector<double>& ours,
+                                const std::vector<double>& theirs, const std::vector<double>& times,
+                                const std::vector<Place>& places, double scale) {
   ColumnDifference d;
   d.difference = -1.0;
   for (std::size_t i = 0; i < theirs.size(); ++i) {
@@ -109,7 +114,8 @@ ColumnDifference compare_column(const std::string& name, const std::vector<doubl
     const double value = value_at(ours, places[i]);
     const double difference = std::abs(value - theirs[i]);
     if (std::isfinite(difference) && difference <= d.difference) continue;
-    d = {name, difference, std::isfinite(difference) ? difference / scale : not_a_number, 0.0, times[i], value, theirs[i]};
+    d = {name,  difference, std::isfinite(difference) ? difference / scale : not_a_number, 0.0, times[i],
+         value, theirs[i]};
     if (!std::isfinite(difference)) break;
   }
   d.column = name;
@@ -125,21 +131,23 @@ const std::vector<double>& times_of(const Table& table) {
 }  // namespace
 
 bool Comparison::ok() const {
-  return problems.empty() && !columns.empty() && std::all_of(columns.begin(), columns.end(), [](const auto& c) { return c.ok(); });
+  return problems.empty() && !columns.empty() &&
+         std::all_of(columns.begin(), columns.end(), [](const auto& c) { return c.ok(); });
 }
 
 std::string Comparison::report() const {
   char line[240];
-  std::snprintf(line, sizeof line, "%-18s %13s %13s %10s %12s %24s %24s\n", "column", "difference", "relative", "tolerance", "at time",
-                "value", "reference");
+  std::snprintf(line, sizeof line, "%-18s %13s %13s %10s %12s %24s %24s\n", "column", "difference", "relative",
+                "tolerance", "at time", "value", "reference");
   std::string text = line;
   for (const ColumnDifference& c : columns) {
-    std::snprintf(line, sizeof line, "%-18s %13.4g %13.4g %10.3g %12.6g %24.16g %24.16g%s\n", c.column.c_str(), c.difference,
-                  c.relative, c.tolerance, c.time, c.value, c.reference, c.ok() ? "" : "  <-- FAILS");
+    std::snprintf(line, sizeof line, "%-18s %13.4g %13.4g %10.3g %12.6g %24.16g %24.16g%s\n", c.column.c_str(),
+                  c.difference, c.relative, c.tolerance, c.time, c.value, c.reference, c.ok() ? "" : "  <-- FAILS");
     text += line;
   }
   text += std::to_string(rows) + " rows compared";
-  if (interpolated > 0) text += "; " + std::to_string(interpolated) + " of them have no equal time in the history and were interpolated";
+  if (interpolated > 0)
+    text += "; " + std::to_string(interpolated) + " of them have no equal time in the history and were interpolated";
   text += "\n";
   for (const std::string& p : problems) text += "error: " + p + "\n";
   return text + (ok() ? "ok\n" : "DIFFERENT\n");

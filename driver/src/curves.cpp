@@ -10,9 +10,9 @@
 namespace fpz::driver {
 namespace {
 
-constexpr double mega = 1e-6;   // Pa -> MPa
-constexpr double micro = 1e6;   // m -> um
-constexpr double milli = 1e3;   // 1 -> 1e-3
+constexpr double mega = 1e-6;  // Pa -> MPa
+constexpr double micro = 1e6;  // m -> um
+constexpr double milli = 1e3;  // 1 -> 1e-3
 constexpr int most_distinct = 8;
 
 std::string line(const std::string& colour, const char* width = "2.5") {
@@ -111,8 +111,8 @@ HistoryCurves::HistoryCurves(const Table& table) : table_(table) {
   find_local();
 }
 
-/// Local shear and tractions. The history has none before onset; in 2-D they follow from the stress and the plane that cracks
-/// later, and the curves begin at the origin as in figure 5 of the paper.
+/// Local shear and tractions. The history has none before onset; in 2-D they follow from the stress and the plane that
+/// cracks later, and the curves begin at the origin as in figure 5 of the paper.
 void HistoryCurves::find_local() {
   const auto& cracked = table_.at("cracked");
   const auto& ts2 = table_.at("t_s2");
@@ -158,7 +158,8 @@ bool HistoryCurves::elastic_cracked(int number) const {
   return first > 0.0 && first == last;
 }
 
-std::vector<Curve> HistoryCurves::by_stage(const Pick& x, const Pick& y, const std::function<bool(std::size_t)>& use) const {
+std::vector<Curve> HistoryCurves::by_stage(const Pick& x, const Pick& y,
+                                           const std::function<bool(std::size_t)>& use) const {
   const auto& stage = table_.at("stage");
   std::vector<Curve> curves;
   const int every = stages_ <= most_distinct ? 1 : (stages_ + most_distinct - 1) / most_distinct;
@@ -169,7 +170,8 @@ std::vector<Curve> HistoryCurves::by_stage(const Pick& x, const Pick& y, const s
     for (std::size_t i = 0; i < table_.rows(); ++i) {
       const bool here = stage[i] == k;
       const bool just_before = i + 1 < table_.rows() && stage[i + 1] == k && stage[i] < k;  // stages join
-      if ((here || just_before) && use(i) && std::isfinite(x(i)) && std::isfinite(y(i))) curve.points.push_back({x(i), y(i), 0.0});
+      if ((here || just_before) && use(i) && std::isfinite(x(i)) && std::isfinite(y(i)))
+        curve.points.push_back({x(i), y(i), 0.0});
     }
     if (curve.points.size() < 2) continue;
     curve.points = thin(curve.points);
@@ -200,7 +202,9 @@ Panel HistoryCurves::stress_strain(const std::string& component) const {
 }
 
 bool HistoryCurves::is_active(const std::string& component) const {
-  const auto any = [](const std::vector<double>& v) { return std::any_of(v.begin(), v.end(), [](double x) { return x != 0.0; }); };
+  const auto any = [](const std::vector<double>& v) {
+    return std::any_of(v.begin(), v.end(), [](double x) { return x != 0.0; });
+  };
   return any(table_.at("eps_" + component)) && any(table_.at("sig_" + component));
 }
 
@@ -232,8 +236,8 @@ Panel HistoryCurves::loading_path() const {
     const auto& strain = table_.at(std::string("eps_") + component);
     const bool moves = std::any_of(strain.begin(), strain.end(), [](double v) { return v != 0.0; });
     if (!moves) continue;
-    p.curves.push_back({over_time([&](std::size_t i) { return milli * strain[i]; }), line(stage_colour(colour, most_distinct)),
-                        "ε" + subscript(component)});
+    p.curves.push_back({over_time([&](std::size_t i) { return milli * strain[i]; }),
+                        line(stage_colour(colour, most_distinct)), "ε" + subscript(component)});
     ++colour;
   }
   return p;
@@ -268,7 +272,8 @@ Points HistoryCurves::traction_path() const {
   const auto& d = table_.at("D");
   Points points;
   for (std::size_t i = 0; i < table_.rows(); ++i) {
-    if (has_local_[i] && std::isfinite(t_n_[i]) && std::isfinite(t_s_[i])) points.push_back({mega * t_n_[i], mega * t_s_[i], d[i]});
+    if (has_local_[i] && std::isfinite(t_n_[i]) && std::isfinite(t_s_[i]))
+      points.push_back({mega * t_n_[i], mega * t_s_[i], d[i]});
   }
   return thin(points);
 }

@@ -41,7 +41,8 @@ struct Panel {
   bool legend = true;
 };
 
-/// Removes points that lie on the line between their neighbours to within `tolerance` of the picture's size (Douglas-Peucker).
+/// Removes points that lie on the line between their neighbours to within `tolerance` of the picture's size
+/// (Douglas-Peucker).
 [[nodiscard]] Points thin(const Points& points, double tolerance = 2e-4);
 
 /// Colour of stage number k (from 0) of `count`: distinct colours for a few stages, a ramp for many.
@@ -67,19 +68,21 @@ class HistoryCurves {
 
  private:
   using Pick = std::function<double(std::size_t)>;
-  [[nodiscard]] std::vector<Curve> by_stage(const Pick& x, const Pick& y, const std::function<bool(std::size_t)>& use) const;
+  [[nodiscard]] std::vector<Curve> by_stage(const Pick& x, const Pick& y,
+                                            const std::function<bool(std::size_t)>& use) const;
   [[nodiscard]] Points over_time(const Pick& y) const;
   [[nodiscard]] bool elastic_cracked(int stage) const;
   void find_local();
 
   const Table& table_;
   int stages_ = 0;
-  bool magnitude_ = false;            ///< 3-D: the shear is drawn as a magnitude
+  bool magnitude_ = false;               ///< 3-D: the shear is drawn as a magnitude
   std::vector<double> u_s_, t_n_, t_s_;  ///< local quantities; in 2-D the tractions before onset, too
   std::vector<char> has_local_;
 };
 
 /// The yield surface (eq 48 of the paper) at damage D: t_s over t_n, both halves, MPa, down to t_n = `lowest`.
-[[nodiscard]] Points yield_curve(double tensile_strength, double cohesion, double friction_angle_deg, double damage, double lowest);
+[[nodiscard]] Points yield_curve(double tensile_strength, double cohesion, double friction_angle_deg, double damage,
+                                 double lowest);
 
 }  // namespace fpz::driver

@@ -1,5 +1,5 @@
-// fpz-driver: element tests from the command line. Exit status: 0 success; 1 a run, check or comparison failed; 2 bad usage,
-// bad input, or a file that cannot be written.
+// fpz-driver: element tests from the command line. Exit status: 0 success; 1 a run, check or comparison failed; 2 bad
+// usage, bad input, or a file that cannot be written.
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -12,6 +12,7 @@
 #include "fpz/driver/output.hpp"
 #include "fpz/driver/path_file.hpp"
 #include "fpz/driver/plot.hpp"
+#include "fpz/driver/replay.hpp"
 #include "fpz/driver/run.hpp"
 #include "fpz/driver/tangent_check.hpp"
 
@@ -37,8 +38,8 @@ class ProgressLine {
     shown_ = true;
     const double elapsed = std::chrono::duration<double>(now - start_).count();
     const double remaining = p.time > 0.0 ? elapsed * (p.stages - p.time) / p.time : 0.0;
-    std::fprintf(stderr, "\r\033[K%s: stage %d of %d, D = %.4f, %.0f s elapsed, about %.0f s remaining", name_.c_str(), p.stage,
-                 p.stages, p.damage, elapsed, remaining);
+    std::fprintf(stderr, "\r\033[K%s: stage %d of %d, D = %.4f, %.0f s elapsed, about %.0f s remaining", name_.c_str(),
+                 p.stage, p.stages, p.damage, elapsed, remaining);
   }
 
  private:
@@ -63,7 +64,8 @@ std::vector<fs::path> test_folders(const PathFile& paths, const fs::path& out) {
   std::set<std::string> names;
   for (const Test& test : paths.tests) {
     const std::string name = folder_name(test.name);
-    if (!names.insert(name).second) throw InputError(paths.file.string() + ": two tests would share the folder \"" + name + "\"");
+    if (!names.insert(name).second)
+      throw InputError(paths.file.string() + ": two tests would share the folder \"" + name + "\"");
     folders.push_back(paths.tests.size() == 1 ? out : out / name);
   }
   return folders;
@@ -76,7 +78,8 @@ void warn(const std::vector<std::string>& warnings) {
 void plot_test(const Table& table, PlotRequest request) {
   const PlotOutcome pictures = plot_history(table, request);
   warn(pictures.warnings);
-  if (!pictures.files.empty()) std::cout << "  " << pictures.files.size() << " pictures in " << request.folder.string() << "\n";
+  if (!pictures.files.empty())
+    std::cout << "  " << pictures.files.size() << " pictures in " << request.folder.string() << "\n";
 }
 
 /// Runs one test and writes all its files. Returns whether it came through.
@@ -89,9 +92,9 @@ bool run_one(const Test& test, const fs::path& folder, const RunArguments& argum
   }
   write_history(folder / "history.csv", result.history, arguments.force);
   write_summary(folder / "summary.json", test, result, arguments.force);
-  std::cout << test.name << ": " << result.status << ", " << result.history.size() << " rows, D = " << result.summary.damage
-            << ", energy balance " << result.summary.energy_balance << ", " << result.summary.wall_seconds << " s\n  "
-            << (folder / "history.csv").string() << "\n";
+  std::cout << test.name << ": " << result.status << ", " << result.history.size()
+            << " rows, D = " << result.summary.damage << ", energy balance " << result.summary.energy_balance << ", "
+            << result.summary.wall_seconds << " s\n  " << (folder / "history.csv").string() << "\n";
   if (!result.ok()) std::cerr << "error: " << result.message << "\n";
   if (arguments.plots) {
     const fpz::Parameters& p = test.parameters;
@@ -143,6 +146,12 @@ int compare(const std::string& history, const std::string& reference, const Comp
   return result.ok() ? 0 : 1;
 }
 
+int replay_capture(const std::string& file) {
+  const Replay result = replay(file);
+  std::cout << result.text;
+  return result.ok() ? 0 : 1;
+}
+
 std::string column_help() {
   std::string text = "Columns of history.csv (SI units, tension positive, tensor shear strains):\n";
   for (const Column& c : columns()) {
@@ -171,9 +180,11 @@ int main(int argc, char** argv) try {
       "Exit status: 0 success; 1 a run, check or comparison failed; 2 bad usage or input, or unwritable files.");
 
   RunArguments run_arguments;
-  CLI::App* run_command = app.add_subcommand("run", "Run the tests of a path file; write history.csv, summary.json and pictures");
+  CLI::App* run_command =
+      app.add_subcommand("run", "Run the tests of a path file; write history.csv, summary.json and pictures");
   run_command->add_option("PATH.json", run_arguments.file, "path file")->required();
-  run_command->add_option("-o,--out", run_arguments.out, "output folder; several tests get a sub-folder each")->required();
+  run_command->add_option("-o,--out", run_arguments.out, "output folder; several tests get a sub-folder each")
+      ->required();
   run_command->add_flag("--force", run_arguments.force, "replace files that exist");
   run_command->add_flag("!--no-plots", run_arguments.plots, "draw no pictures");
   run_command->footer(column_help() + "Example:\n  fpz-driver run data/paths/four_stage.json -o out/four_stage");
@@ -187,9 +198,11 @@ int main(int argc, char** argv) try {
 
   std::string check_file;
   TangentCheckOptions check_options;
-  CLI::App* check_command = app.add_subcommand("check", "Compare the tangent along a path with differences of the update");
+  CLI::App* check_command =
+      app.add_subcommand("check", "Compare the tangent along a path with differences of the update");
   check_command->add_option("PATH.json", check_file, "path file")->required();
-  check_command->add_option("--tolerance", check_options.tolerance, "on the relative Frobenius norm")->capture_default_str();
+  check_command->add_option("--tolerance", check_options.tolerance, "on the relative Frobenius norm")
+      ->capture_default_str();
   check_command->add_option("--every", check_options.every, "check every so many increments")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
@@ -200,19 +213,33 @@ int main(int argc, char** argv) try {
   CompareOptions compare_options;
   CLI::App* compare_command = app.add_subcommand("compare", "Compare a history with a reference CSV");
   compare_command->add_option("HISTORY.csv", history, "history to judge")->required();
-  compare_command->add_option("REFERENCE.csv", reference, "with the columns of a history, or T,sxx,...,us2")->required();
-  compare_command->add_option("--stress-tolerance", compare_options.stress_tolerance, "relative to the stress scale")->capture_default_str();
+  compare_command->add_option("REFERENCE.csv", reference, "with the columns of a history, or T,sxx,...,us2")
+      ->required();
+  compare_command->add_option("--stress-tolerance", compare_options.stress_tolerance, "relative to the stress scale")
+      ->capture_default_str();
   compare_command->add_option("--stress-scale", compare_options.stress_scale, "Pa; 0: largest stress in the reference")
       ->capture_default_str();
-  compare_command->add_option("--damage-tolerance", compare_options.damage_tolerance, "absolute")->capture_default_str();
-  compare_command->add_option("--jump-tolerance", compare_options.jump_tolerance, "relative to the largest jump in the reference")
+  compare_command->add_option("--damage-tolerance", compare_options.damage_tolerance, "absolute")
       ->capture_default_str();
-  compare_command->add_option("--strain-tolerance", compare_options.strain_tolerance, "relative to the largest strain in the reference")
+  compare_command
+      ->add_option("--jump-tolerance", compare_options.jump_tolerance, "relative to the largest jump in the reference")
+      ->capture_default_str();
+  compare_command
+      ->add_option("--strain-tolerance", compare_options.strain_tolerance,
+                   "relative to the largest strain in the reference")
       ->capture_default_str();
   compare_command->footer(
-      "Rows are matched by time; where the history has no equal time it is interpolated, and that is said. Every known column of the\n"
+      "Rows are matched by time; where the history has no equal time it is interpolated, and that is said. Every known "
+      "column of the\n"
       "reference is compared. A missing column or a NaN is a failure.\n"
-      "Example:\n  fpz-driver compare out/four_stage/history.csv data/reference/four_stage.csv --stress-tolerance 1e-7");
+      "Example:\n  fpz-driver compare out/four_stage/history.csv data/reference/four_stage.csv --stress-tolerance "
+      "1e-7");
+
+  std::string capture;
+  CLI::App* replay_command =
+      app.add_subcommand("replay", "Repeat one captured update; with the other integrators for comparison");
+  replay_command->add_option("CAPTURE.json", capture, "capture written by the library")->required();
+  replay_command->footer("Exit status 1 when the update fails again.\nExample:\n  fpz-driver replay failed_point.json");
 
   try {
     app.parse(argc, argv);
@@ -222,6 +249,7 @@ int main(int argc, char** argv) try {
   if (*run_command) return run(run_arguments);
   if (*plot_command) return plot(plot_what, plot_force);
   if (*check_command) return check(check_file, check_options);
+  if (*replay_command) return replay_capture(capture);
   return compare(history, reference, compare_options);
 } catch (const std::exception& e) {
   std::cerr << "fpz-driver: " << e.what() << "\n";

@@ -72,15 +72,17 @@ class Picture {
   Picture(Gnuplot& gp, Format format, Size size) : gp_(gp), format_(format) {
     const int f = format == Format::png ? 2 : 1;
     gp_ << "set encoding utf8\n";
-    gp_ << "set terminal " << (format == Format::png ? "pngcairo" : "svg dynamic") << " enhanced font 'DejaVu Sans," << 14
-        << "' " << (format == Format::png ? "fontscale 1.9 linewidth 2 " : "") << "size " << f * size.width << ',' << f * size.height
-        << " background rgb 'white'\n";
+    gp_ << "set terminal " << (format == Format::png ? "pngcairo" : "svg dynamic") << " enhanced font 'DejaVu Sans,"
+        << 14 << "' " << (format == Format::png ? "fontscale 1.9 linewidth 2 " : "") << "size " << f * size.width << ','
+        << f * size.height << " background rgb 'white'\n";
     gp_ << "set border 3 lw 1 lc rgb '#404040'\nset tics nomirror out scale 0.6 textcolor rgb '#202020'\n";
     gp_ << "set grid lc rgb '#E6E6E6' lw 0.7 dt 1\nset key samplen 1.8 spacing 1.15 reverse Left\n";
   }
 
   void title(const std::string& text) { gp_ << "set title " << quoted(text) << " noenhanced\n"; }
-  void letter(const std::string& text) { gp_ << "set label 50 " << quoted(text) << " at graph -0.05, graph 1.07 right\n"; }
+  void letter(const std::string& text) {
+    gp_ << "set label 50 " << quoted(text) << " at graph -0.05, graph 1.07 right\n";
+  }
 
   void labels(const Panel& panel) {
     gp_ << "set xlabel " << quoted(panel.x_label) << "\nset ylabel " << quoted(panel.y_label) << " offset 0.5,0\n";
@@ -92,7 +94,8 @@ class Picture {
   }
 
   void ranges(const Range& x, const Range& y) {
-    gp_ << "set xrange [" << number(x.lo) << ':' << number(x.hi) << "]\nset yrange [" << number(y.lo) << ':' << number(y.hi) << "]\n";
+    gp_ << "set xrange [" << number(x.lo) << ':' << number(x.hi) << "]\nset yrange [" << number(y.lo) << ':'
+        << number(y.hi) << "]\n";
   }
 
   /// Draws the panel over ranges that hold all its points.
@@ -117,11 +120,12 @@ class Picture {
     for (const Curve& c : panel.curves) {
       if (c.points.empty()) continue;
       const bool coloured = c.style.find("palette") != std::string::npos;
-      command += (command.empty() ? "plot " : ", ") + std::string("'-' using 1:2") + (coloured ? ":3" : "") + " with " + c.style +
-                 (c.title.empty() ? " notitle" : " title " + quoted(c.title));
+      command += (command.empty() ? "plot " : ", ") + std::string("'-' using 1:2") + (coloured ? ":3" : "") + " with " +
+                 c.style + (c.title.empty() ? " notitle" : " title " + quoted(c.title));
     }
     if (command.empty()) {
-      gp_ << "set label 99 'no fracture' at graph 0.5,0.6 center textcolor rgb '#606060'\nplot NaN notitle\nunset label 99\n";
+      gp_ << "set label 99 'no fracture' at graph 0.5,0.6 center textcolor rgb '#606060'\nplot NaN notitle\nunset "
+             "label 99\n";
       return;
     }
     gp_ << command << "\n";
@@ -130,14 +134,18 @@ class Picture {
     }
   }
 
-  /// One legend for all panels of a multiplot, under its title: the key of an empty plot, because a key is never wider than its plot.
+  /// One legend for all panels of a multiplot, under its title: the key of an empty plot, because a key is never wider
+  /// than its plot.
   void common_legend(const Panel& panel) {
-    gp_ << "set lmargin at screen 0.02\nset rmargin at screen 0.98\nset bmargin at screen 0.905\nset tmargin at screen 0.955\n"
-        << "unset border\nunset tics\nunset xlabel\nunset ylabel\nunset label 50\nset key center center horizontal maxrows 1\n"
+    gp_ << "set lmargin at screen 0.02\nset rmargin at screen 0.98\nset bmargin at screen 0.905\nset tmargin at screen "
+           "0.955\n"
+        << "unset border\nunset tics\nunset xlabel\nunset ylabel\nunset label 50\nset key center center horizontal "
+           "maxrows 1\n"
         << "set xrange [0:1]\nset yrange [0:1]\n";
     std::string command;
     for (const Curve& c : panel.curves) {
-      if (!c.title.empty()) command += (command.empty() ? "plot NaN with " : ", NaN with ") + c.style + " title " + quoted(c.title);
+      if (!c.title.empty())
+        command += (command.empty() ? "plot NaN with " : ", NaN with ") + c.style + " title " + quoted(c.title);
     }
     if (!command.empty()) gp_ << command << "\n";
   }
@@ -171,7 +179,8 @@ void mark_stages(Picture& picture, int stages) {
     picture.raw() << "set label " << k << " 'Stage " << k << "' at " << k - 0.5
                   << ", graph 1.03 center font ',12' textcolor rgb '#606060'\n";
     if (k < stages)
-      picture.raw() << "set arrow " << k << " from " << k << ", graph 0 to " << k << ", graph 1 nohead lc rgb '#A0A0A0' lw 0.8 dt 2\n";
+      picture.raw() << "set arrow " << k << " from " << k << ", graph 0 to " << k
+                    << ", graph 1 nohead lc rgb '#A0A0A0' lw 0.8 dt 2\n";
   }
 }
 
@@ -184,10 +193,11 @@ Job single(const std::string& name, const Panel& panel, const std::string& title
 
 Job four_panels(const HistoryCurves& curves, const std::string& title) {
   return {"four_panels", {1120, 860}, [&curves, title](Picture& p) {
-            std::array<Panel, 4> panels = {curves.stress_strain("xx"), curves.stress_strain("xy"), curves.normal_traction(),
-                                                 curves.shear_traction()};
+            std::array<Panel, 4> panels = {curves.stress_strain("xx"), curves.stress_strain("xy"),
+                                           curves.normal_traction(), curves.shear_traction()};
             const std::array<const char*, 4> letters = {"(A)", "(B)", "(C)", "(D)"};
-            p.raw() << "set multiplot layout 2,2 title " << quoted(title) << " noenhanced font ',17' margins 0.095,0.98,0.09,0.865 "
+            p.raw() << "set multiplot layout 2,2 title " << quoted(title)
+                    << " noenhanced font ',17' margins 0.095,0.98,0.09,0.865 "
                     << "spacing 0.115,0.135\n";
             for (std::size_t k = 0; k < 4; ++k) {
               panels[k].legend = false;
@@ -209,7 +219,8 @@ Job loading_path(const HistoryCurves& curves, const std::string& title) {
 
 Job damage_energy(const HistoryCurves& curves, const std::string& title) {
   return {"damage_energy", {800, 820}, [&curves, title](Picture& p) {
-            p.raw() << "set multiplot layout 2,1 title " << quoted(title) << " noenhanced font ',17' margins 0.15,0.97,0.13,0.9 "
+            p.raw() << "set multiplot layout 2,1 title " << quoted(title)
+                    << " noenhanced font ',17' margins 0.15,0.97,0.13,0.9 "
                     << "spacing 0.1,0.11\n";
             mark_stages(p, curves.stages());
             const Panel damage = curves.damage();
@@ -246,8 +257,8 @@ Job yield_surface(const HistoryCurves& curves, const YieldSurface& s, const std:
               label << (damage == 0.0 ? "initial yield surface" : "at D = ");
               if (damage > 0.0) label << damage;
               panel.curves.push_back({surface,
-                                      std::string("lines lw ") + (damage == 0.0 ? "2.2" : "1.4") + " dt " + (damage == 0.0 ? "1" : "2") +
-                                          " lc rgb '" + colour + "'",
+                                      std::string("lines lw ") + (damage == 0.0 ? "2.2" : "1.4") + " dt " +
+                                          (damage == 0.0 ? "1" : "2") + " lc rgb '" + colour + "'",
                                       label.str()});
             }
             panel.curves.push_back({path, "lines lw 3.5 lc palette", path.empty() ? "" : "traction path"});
@@ -297,8 +308,8 @@ void draw_one(const Job& job, Format format, const fs::path& file, bool force) {
 std::vector<fs::path> picture_files(const fs::path& folder, bool with_surface) {
   std::vector<fs::path> files;
   for (const char* name : {"loading_path", "four_panels", "stress_strain_xx", "stress_strain_xy", "traction_normal",
-                           "traction_shear", "damage_energy", "stress_strain_yy", "stress_strain_zz", "stress_strain_xz",
-                           "stress_strain_yz", "yield_surface"}) {
+                           "traction_shear", "damage_energy", "stress_strain_yy", "stress_strain_zz",
+                           "stress_strain_xz", "stress_strain_yz", "yield_surface"}) {
     if (!with_surface && std::string_view(name) == "yield_surface") continue;
     for (const char* ending : {".png", ".svg"}) files.push_back(folder / (std::string(name) + ending));
   }
@@ -336,7 +347,9 @@ void read_plot_facts(const fs::path& summary, PlotRequest& request) {
   if (request.title.empty()) request.title = json.value("test", "");
   const auto m = json.find("material");
   if (m == json.end() || !m->is_object()) return;
-  const auto get = [&](const char* key) { return m->contains(key) && (*m)[key].is_number() ? (*m)[key].get<double>() : 0.0; };
+  const auto get = [&](const char* key) {
+    return m->contains(key) && (*m)[key].is_number() ? (*m)[key].get<double>() : 0.0;
+  };
   const YieldSurface s = {get("tensile_strength"), get("cohesion"), get("friction_angle_deg")};
   if (s.tensile_strength > 0.0 && s.cohesion > 0.0 && s.friction_angle_deg > 0.0) request.surface = s;
 }

@@ -83,11 +83,13 @@ class PointRun {
   }
 
   [[nodiscard]] double next_target(double ds) const {
-    if (!stage().automatic) return increment_ >= stage().increments ? 1.0 : static_cast<double>(increment_) / stage().increments;
+    if (!stage().automatic)
+      return increment_ >= stage().increments ? 1.0 : static_cast<double>(increment_) / stage().increments;
     return now_.s + ds > 1.0 - 1e-9 ? 1.0 : now_.s + ds;
   }
 
-  /// Takes the point to fraction `target` of the stage, in halves where a step fails. On failure now_ is the last good state.
+  /// Takes the point to fraction `target` of the stage, in halves where a step fails. On failure now_ is the last good
+  /// state.
   [[nodiscard]] bool advance(double target) {
     const double whole = target - now_.s;
     double ds = whole;
@@ -104,7 +106,8 @@ class PointRun {
         continue;
       }
       good = 0;
-      if (++halvings > most_halvings || status_ == Status::no_plastic_flow || status_ == Status::invalid_input) return false;
+      if (++halvings > most_halvings || status_ == Status::no_plastic_flow || status_ == Status::invalid_input)
+        return false;
       ++result_.summary.counts.halvings;
       ds = 0.5 * (next - now_.s);
     }
@@ -190,7 +193,8 @@ class PointRun {
     now_.onset = o;
   }
 
-  /// Automatic stepping: the largest distance of the stress at half the step from the chord, over sigma_t0, decides; ds is updated.
+  /// Automatic stepping: the largest distance of the stress at half the step from the chord, over sigma_t0, decides; ds
+  /// is updated.
   [[nodiscard]] bool small_enough(const Snapshot& begin, double target, double& ds) {
     const Snapshot end = now_;
     const double step = target - begin.s;
@@ -200,7 +204,8 @@ class PointRun {
       return true;
     }
     const Strain chord = 0.5 * (begin.point.stress + end.point.stress) - now_.point.stress;
-    const double error = chord.template lpNorm<Eigen::Infinity>() / material_.law.tensile_strength / stage().step_tolerance;
+    const double error =
+        chord.template lpNorm<Eigen::Infinity>() / material_.law.tensile_strength / stage().step_tolerance;
     now_ = end;
     ds = step * std::clamp(0.9 / std::sqrt(error + 1e-12), 0.2, 3.0);
     ds = std::clamp(ds, smallest_automatic_step, largest_automatic_step);
@@ -218,7 +223,8 @@ class PointRun {
   void arm_stops() {
     for (const StopCondition& stop : stage().stop) {
       const Column* column = find_column(stop.quantity);
-      if (!column || !column->get) throw InputError("test \"" + test_.name + "\": no column \"" + stop.quantity + "\" to stop at");
+      if (!column || !column->get)
+        throw InputError("test \"" + test_.name + "\": no column \"" + stop.quantity + "\" to stop at");
     }
   }
 
@@ -242,7 +248,8 @@ class PointRun {
     return stopped;
   }
 
-  /// Bisection on the size of the increment. now_ is past the crossing on entry and on the crossing, to rounding, on exit.
+  /// Bisection on the size of the increment. now_ is past the crossing on entry and on the crossing, to rounding, on
+  /// exit.
   void locate(const Snapshot& begin, const StopCondition& stop, double before) {
     Snapshot good = now_;
     double lo = begin.s;
@@ -299,7 +306,8 @@ class PointRun {
   }
 
   void fail() {
-    const bool limit = control_->ramps_stress() && status_ != Status::invalid_input && status_ != Status::no_plastic_flow;
+    const bool limit =
+        control_->ramps_stress() && status_ != Status::invalid_input && status_ != Status::no_plastic_flow;
     result_.status = limit ? "load_limit" : to_string(status_);
     std::ostringstream text;
     text.precision(6);
@@ -311,14 +319,17 @@ class PointRun {
 
   [[nodiscard]] std::string explanation(bool limit) const {
     if (limit) {
-      return "the load limit is reached: no equilibrium carries more of the prescribed stress. Use strain control or jump control to "
+      return "the load limit is reached: no equilibrium carries more of the prescribed stress. Use strain control or "
+             "jump control to "
              "go past the peak.";
     }
     if (status_ == Status::no_plastic_flow) {
-      return "the flow rule has no opening (dilation angle 0) that could relax the tension. Use a dilation angle above 0.";
+      return "the flow rule has no opening (dilation angle 0) that could relax the tension. Use a dilation angle above "
+             "0.";
     }
     if (status_ == Status::invalid_input) return "a strain is not finite.";
-    if (control_->jump_controlled()) return "this direction no longer loads the fracture, so its inelastic displacement cannot grow along it.";
+    if (control_->jump_controlled())
+      return "this direction no longer loads the fracture, so its inelastic displacement cannot grow along it.";
     const bool mixed = !control_->strain_only();
     if (status_ == Status::snap_back || mixed) return snap_back_advice(mixed);
     return "the integrator \"" + std::string(to_string(test_.options.method)) +
@@ -331,9 +342,11 @@ class PointRun {
     const double h = test_.parameters.rve_length;
     const double kappa = test_.parameters.delta0 / 100.0;
     text << (mixed ? "no solution follows under these controls, most likely for snap-back" : "snap-back")
-         << ": the fracture softens faster than the bulk of the volume unloads, and the response is not unique. H = " << h
-         << " m here; in mode I the limit under strain control is H < " << snap_back_length(test_.parameters, test_.setting)
-         << " m, in mixed mode it is lower. Use a smaller H, or jump control in this stage of the path file: \"jump_control\": "
+         << ": the fracture softens faster than the bulk of the volume unloads, and the response is not unique. H = "
+         << h << " m here; in mode I the limit under strain control is H < "
+         << snap_back_length(test_.parameters, test_.setting)
+         << " m, in mixed mode it is lower. Use a smaller H, or jump control in this stage of the path file: "
+            "\"jump_control\": "
             "{\"increment\": "
          << kappa << "}.";
     return text.str();

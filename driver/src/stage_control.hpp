@@ -1,4 +1,5 @@
-// What a stage prescribes, as N linear equations between the stored strains and stresses of a point, and their solution.
+// What a stage prescribes, as N linear equations between the stored strains and stresses of a point, and their
+// solution.
 #pragma once
 
 #include <Eigen/LU>
@@ -22,7 +23,8 @@ struct Step {
   long substeps = 0;
 };
 
-/// Prescribes  strain . eps + stress . sig = from + s (to - from),  s in [0, 1] through the stage, on stored components.
+/// Prescribes  strain . eps + stress . sig = from + s (to - from),  s in [0, 1] through the stage, on stored
+/// components.
 template <int Dim>
 struct Equation {
   Tensor<double, Dim> strain = Tensor<double, Dim>::Zero();
@@ -36,8 +38,8 @@ struct Equation {
   }
 };
 
-/// Mixed control of a stage. Components that no control mentions keep their strain; every linear constraint frees one of those
-/// among its own.
+/// Mixed control of a stage. Components that no control mentions keep their strain; every linear constraint frees one
+/// of those among its own.
 template <int Dim>
 class StageControl {
  public:
@@ -67,7 +69,8 @@ class StageControl {
   [[nodiscard]] bool ramps_stress() const { return ramps_stress_; }
   [[nodiscard]] const Strain& direction() const { return direction_; }
 
-  /// Takes the point from s0 to s1. `rate` is the last accepted d(strain)/ds, the first guess; it is updated on success.
+  /// Takes the point from s0 to s1. `rate` is the last accepted d(strain)/ds, the first guess; it is updated on
+  /// success.
   [[nodiscard]] Step step(const Point& begin, double s0, double s1, Strain& rate, Point& end) const {
     if (jump_controlled()) return jump_step(begin, s1 - s0, end);
     if (strain_only_) return strain_step(begin, s1, end);
@@ -85,7 +88,8 @@ class StageControl {
 
  private:
   static constexpr double residual_tolerance = 1e-10;
-  /// A mixed-control step with more damage than this is cut: after a limit point Newton may land on a far branch instead.
+  /// A mixed-control step with more damage than this is cut: after a limit point Newton may land on a far branch
+  /// instead.
   static constexpr double largest_damage_step = 0.1;
   using Square = Mat<double, N, N>;
 
@@ -98,7 +102,8 @@ class StageControl {
     }
     for (const ComponentControl& c : stage.controls) {
       const int k = stored_index<Dim>(c.component);
-      if (k < 0) throw InputError("component " + std::string(component_names[at(c.component)]) + " cannot be controlled in 2-D");
+      if (k < 0)
+        throw InputError("component " + std::string(component_names[at(c.component)]) + " cannot be controlled in 2-D");
       Equation<Dim>& e = equations_[at(k)];
       taken_[at(k)] = true;
       if (c.control == Control::strain_increment) e.to = e.from + c.value * stage.increments;
@@ -142,7 +147,8 @@ class StageControl {
       e.from = e.strain.dot(begin.strain) + e.stress.dot(begin.stress);
       e.to = c.value;
       strain_only_ = false;
-      ramps_stress_ = ramps_stress_ || (e.stress.norm() > 0.0 && std::abs(e.to - e.from) > 1e-9 * stress_scale_ * e.stress.norm());
+      ramps_stress_ =
+          ramps_stress_ || (e.stress.norm() > 0.0 && std::abs(e.to - e.from) > 1e-9 * stress_scale_ * e.stress.norm());
       found.push_back(e);
     }
     std::array<int, 6> owner;
@@ -179,7 +185,8 @@ class StageControl {
     }
     elastic_ = jacobian(elastic_tangent<Dim>(material_.bulk));
     elastic_determinant_ = elastic_.determinant();
-    if (!(std::abs(elastic_determinant_) > 1e-12)) throw InputError("the controls and constraints of the stage are not independent");
+    if (!(std::abs(elastic_determinant_) > 1e-12))
+      throw InputError("the controls and constraints of the stage are not independent");
   }
 
   /// d(residual)/d(strain / strain_scale).
@@ -246,7 +253,8 @@ class StageControl {
       for (; length > 1e-4 && !better; length *= 0.5) {
         Point next;
         Tangent<Dim> next_c;
-        const Report report = update_with_tangent<Dim>(material_, options_, begin, Strain(d + length * move), next, next_c);
+        const Report report =
+            update_with_tangent<Dim>(material_, options_, begin, Strain(d + length * move), next, next_c);
         count(step, report);
         if (!report.ok()) continue;
         const Strain next_r = residual(next, s1);
@@ -258,9 +266,11 @@ class StageControl {
         r = next_r;
         step.report = report;
       }
-      // The adaptive integrator changes its steps with the strain, so its result has steps of their own size, far below its tolerance.
+      // The adaptive integrator changes its steps with the strain, so its result has steps of their own size, far below
+      // its tolerance.
       if (!better) {
-        if (r.norm() <= std::max(residual_tolerance, 0.01 * options_.tolerance)) return accept(step, begin, trial, c, end);
+        if (r.norm() <= std::max(residual_tolerance, 0.01 * options_.tolerance))
+          return accept(step, begin, trial, c, end);
         break;
       }
     }
@@ -269,7 +279,8 @@ class StageControl {
   }
 
   /// Takes a converged step unless it lies beyond a limit point, where the determinant has changed its sign.
-  [[nodiscard]] Step accept(Step step, const Point& begin, const Point& trial, const Tangent<Dim>& c, Point& end) const {
+  [[nodiscard]] Step accept(Step step, const Point& begin, const Point& trial, const Tangent<Dim>& c,
+                            Point& end) const {
     if (jacobian(c).determinant() / elastic_determinant_ <= 0.0) {
       step.report.status = Status::snap_back;
     } else if (damage(trial) - damage(begin) > largest_damage_step) {

@@ -59,7 +59,8 @@ std::string to_json(const Test& test, const Result& result) {
   j["version"] = FPZ_VERSION;
   j["status"] = result.status;
   if (!result.ok()) j["message"] = result.message;
-  j["units"] = "SI: stress Pa, energy per volume J/m^3, energy per crack area J/m^2, angles in degrees; time counts stages";
+  j["units"] =
+      "SI: stress Pa, energy per volume J/m^3, energy per crack area J/m^2, angles in degrees; time counts stages";
   j["setting"] = to_string(test.setting);
   j["material"] = material_json(test);
   j["integrator"] = {{"method", to_string(test.options.method)}, {"tolerance", test.options.tolerance}};
@@ -72,7 +73,8 @@ std::string to_json(const Test& test, const Result& result) {
                  {"stored", s.stored},
                  {"dissipated", s.dissipated},
                  {"relative_balance_residual", s.energy_balance}};
-  j["fracture"] = {{"work_per_area", s.fracture_work_per_area}, {"dissipated_per_area", s.fracture_dissipated_per_area}};
+  j["fracture"] = {{"work_per_area", s.fracture_work_per_area},
+                   {"dissipated_per_area", s.fracture_dissipated_per_area}};
   j["counts"] = {{"updates", s.counts.updates},
                  {"iterations", s.counts.iterations},
                  {"substeps", s.counts.substeps},
@@ -88,7 +90,8 @@ void write_summary(const std::filesystem::path& file, const Test& test, const Re
 std::string folder_name(const std::string& test_name) {
   std::string name = test_name;
   for (char& c : name) {
-    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_' || c == '.';
+    const bool plain =
+        (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_' || c == '.';
     if (!plain) c = '_';
   }
   if (name.empty() || name.front() == '.') name.insert(name.begin(), '_');

@@ -26,7 +26,8 @@ class StepCheck {
     bool kink = false;
   };
 
-  /// A column is at a kink when it disagrees with the central differences and the one-sided ones disagree with each other.
+  /// A column is at a kink when it disagrees with the central differences and the one-sided ones disagree with each
+  /// other.
   [[nodiscard]] Outcome run(double tolerance) const {
     Outcome out;
     Point end;
@@ -101,10 +102,11 @@ TangentCheck check(const Test& test, const TangentCheckOptions& options) {
 
 std::string TangentCheck::report(const TangentCheckOptions& options) const {
   char text[400];
-  std::snprintf(text, sizeof text,
-                "%ld steps checked, %ld above the tolerance %g; in %ld of them some columns lie at a kink (one-sided differences "
-                "disagree) and are not judged\nlargest relative error %.3g at time %.9g\n",
-                checked, failures, options.tolerance, kinks, worst, worst_time);
+  std::snprintf(
+      text, sizeof text,
+      "%ld steps checked, %ld above the tolerance %g; in %ld of them some columns lie at a kink (one-sided differences "
+      "disagree) and are not judged\nlargest relative error %.3g at time %.9g\n",
+      checked, failures, options.tolerance, kinks, worst, worst_time);
   std::string out = text;
   if (run_status != "ok") out += "error: " + run_message + "\n";
   if (checked == 0) out += "error: nothing was checked\n";

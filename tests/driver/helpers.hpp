@@ -52,7 +52,8 @@ inline Test four_stages(int factor) {
   const double dx = 3e-7 * factor;
   const double ds = 15e-7 * factor;
   const auto add = [&](int increments, double x, double s) {
-    test.stages.push_back(stage(increments / factor, {{xx, Control::strain_increment, x}, {xy, Control::strain_increment, s}}));
+    test.stages.push_back(
+        stage(increments / factor, {{xx, Control::strain_increment, x}, {xy, Control::strain_increment, s}}));
   };
   add(12000, dx, 0.0);
   add(2000, dx, ds);

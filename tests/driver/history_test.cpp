@@ -13,9 +13,11 @@ namespace {
 
 TEST(HistoryFile, HasTheDocumentedColumns) {
   const std::string csv = to_csv({});
-  EXPECT_EQ(csv,
-            "stage,increment,time,eps_xx,eps_yy,eps_zz,eps_xy,eps_xz,eps_yz,sig_xx,sig_yy,sig_zz,sig_xy,sig_xz,sig_yz,cracked,n_x,n_y,"
-            "n_z,u_n,u_s1,u_s2,up_n,up_s,t_n,t_s1,t_s2,D,energy_stored,energy_dissipated,iterations,status,energy_work\n");
+  EXPECT_EQ(
+      csv,
+      "stage,increment,time,eps_xx,eps_yy,eps_zz,eps_xy,eps_xz,eps_yz,sig_xx,sig_yy,sig_zz,sig_xy,sig_xz,sig_yz,"
+      "cracked,n_x,n_y,"
+      "n_z,u_n,u_s1,u_s2,up_n,up_s,t_n,t_s1,t_s2,D,energy_stored,energy_dissipated,iterations,status,energy_work\n");
 }
 
 TEST(HistoryFile, NumbersSurviveTheRoundTrip) {

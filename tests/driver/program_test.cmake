@@ -21,7 +21,7 @@ set(four "${DATA}/paths/four_stage.json")
 set(reference "${DATA}/reference/four_stage.csv")
 
 expect(0 "Examples:" --help)
-foreach(command run plot check compare)
+foreach(command run plot check compare replay)
   expect(0 "Example:" ${command} --help)
 endforeach()
 expect(0 "energy_dissipated" run --help)
@@ -53,6 +53,9 @@ expect(1 "jump_control" run "${DATA}/paths/snap_back.json" -o "${WORK}/snap_back
 if(NOT EXISTS "${WORK}/snap_back/history.csv")
   message(SEND_ERROR "a failed run must leave its history")
 endif()
+
+file(WRITE "${WORK}/no_capture.json" "{}")
+expect(2 "fpz_capture" replay "${WORK}/no_capture.json")
 
 # A file where the folder should be.
 file(WRITE "${WORK}/file" "")

@@ -9,7 +9,8 @@
 namespace fpz::driver {
 
 struct CompareOptions {
-  double stress_tolerance = 1e-6;  ///< of stresses and tractions, relative to stress_scale; also of energies, to the largest one
+  double stress_tolerance =
+      1e-6;  ///< of stresses and tractions, relative to stress_scale; also of energies, to the largest one
   double stress_scale = 0.0;       ///< Pa; 0: the largest stress or traction in the reference
   double damage_tolerance = 1e-6;  ///< of D and of the normal's components
   double jump_tolerance = 1e-6;    ///< of jumps, relative to the largest jump in the reference

@@ -21,7 +21,8 @@ struct Table {
   [[nodiscard]] const std::vector<double>& at(std::string_view name) const;
 };
 
-/// Reads a CSV file with a header line. Throws InputError for an unreadable file, an empty one, or lines of unequal length.
+/// Reads a CSV file with a header line. Throws InputError for an unreadable file, an empty one, or lines of unequal
+/// length.
 [[nodiscard]] Table read_csv(const std::filesystem::path& file);
 [[nodiscard]] Table parse_csv(std::string_view text, const std::string& origin);
 

@@ -1,5 +1,5 @@
-// The one place where a run-time Setting becomes a compile-time dimension, and the maps between six named components and
-// the stored ones.
+// The one place where a run-time Setting becomes a compile-time dimension, and the maps between six named components
+// and the stored ones.
 #pragma once
 
 #include <array>

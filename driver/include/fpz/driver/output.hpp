@@ -22,8 +22,8 @@ void require_absent(const std::vector<std::filesystem::path>& files, bool force)
 /// Makes the folder with its parents and checks that files can be written there.
 void make_writable_folder(const std::filesystem::path& folder);
 
-/// Lets `produce` write a temporary file next to `file`, then renames it. `produce` throws when it fails; the temporary file
-/// is removed then. Refuses to write over `file` unless `force`.
+/// Lets `produce` write a temporary file next to `file`, then renames it. `produce` throws when it fails; the temporary
+/// file is removed then. Refuses to write over `file` unless `force`.
 void replace_file(const std::filesystem::path& file, bool force,
                   const std::function<void(const std::filesystem::path& temporary)>& produce);
 

@@ -32,8 +32,8 @@ struct PlotOutcome {
 /// The files that plot_history may write; stress-strain curves of further components only where they are not zero.
 [[nodiscard]] std::vector<std::filesystem::path> picture_files(const std::filesystem::path& folder, bool with_surface);
 
-/// Draws all pictures. A missing gnuplot or a picture that did not come out is a warning, never an exception; a file that exists
-/// already and may not be replaced throws OutputError.
+/// Draws all pictures. A missing gnuplot or a picture that did not come out is a warning, never an exception; a file
+/// that exists already and may not be replaced throws OutputError.
 [[nodiscard]] PlotOutcome plot_history(const Table& history, const PlotRequest& request);
 
 /// Title and yield surface from a summary.json; the file need not exist.

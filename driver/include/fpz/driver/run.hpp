@@ -47,11 +47,11 @@ struct Summary {
   std::array<Peak, 6> lowest{};
   std::optional<Onset> onset;
   double damage = 0.0;
-  double stored = 0.0;                      ///< J/m^3
-  double dissipated = 0.0;                  ///< J/m^3
-  double work = 0.0;                        ///< J/m^3
-  double energy_balance = 0.0;              ///< (work - stored - dissipated) over the largest of them
-  double fracture_work_per_area = 0.0;      ///< int t.du from onset, J/m^2
+  double stored = 0.0;                        ///< J/m^3
+  double dissipated = 0.0;                    ///< J/m^3
+  double work = 0.0;                          ///< J/m^3
+  double energy_balance = 0.0;                ///< (work - stored - dissipated) over the largest of them
+  double fracture_work_per_area = 0.0;        ///< int t.du from onset, J/m^2
   double fracture_dissipated_per_area = 0.0;  ///< J/m^2
   Counts counts;
   double wall_seconds = 0.0;
