@@ -66,4 +66,11 @@ template <class T, int Dim, class P>
   return report;
 }
 
+extern template Report cohesive_update<double, 2, double>(const CohesiveLaw<double>&, const Options&,
+                                                          const CohesiveState<double, 2>&, const Vec<double, 2>&,
+                                                          CohesiveState<double, 2>&, Mat<double, 2, 2>*);
+extern template Report cohesive_update<double, 3, double>(const CohesiveLaw<double>&, const Options&,
+                                                          const CohesiveState<double, 3>&, const Vec<double, 3>&,
+                                                          CohesiveState<double, 3>&, Mat<double, 3, 3>*);
+
 }  // namespace fpz

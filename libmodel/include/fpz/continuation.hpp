@@ -255,4 +255,9 @@ template <int Dim>
   return report;
 }
 
+extern template Report update_controlled<2>(const Material<double>&, const Options&, const State<double, 2>&,
+                                            const Tensor<double, 2>&, double, State<double, 2>&, double&);
+extern template Report update_controlled<3>(const Material<double>&, const Options&, const State<double, 3>&,
+                                            const Tensor<double, 3>&, double, State<double, 3>&, double&);
+
 }  // namespace fpz

@@ -284,4 +284,18 @@ void rotate(State<T, Dim>& s, const Mat<T, Dim, Dim>& q) {
   s.frame = (s.frame * q.transpose()).eval();
 }
 
+// The plain-double updates are compiled once, in the library; other scalars are instantiated where they are used.
+extern template Report detail::update_cracked<2>(const Material<double>&, const Options&, const State<double, 2>&,
+                                                 const Tensor<double, 2>&, State<double, 2>&);
+extern template Report detail::update_cracked<3>(const Material<double>&, const Options&, const State<double, 3>&,
+                                                 const Tensor<double, 3>&, State<double, 3>&);
+extern template State<double, 2> detail::open_crack<2>(const Material<double>&, const Options&, const State<double, 2>&,
+                                                       const Tensor<double, 2>&, const Tensor<double, 2>&);
+extern template State<double, 3> detail::open_crack<3>(const Material<double>&, const Options&, const State<double, 3>&,
+                                                       const Tensor<double, 3>&, const Tensor<double, 3>&);
+extern template Report update_with_tangent<2>(const Material<double>&, const Options&, const State<double, 2>&,
+                                              const Tensor<double, 2>&, State<double, 2>&, Tangent<2>&);
+extern template Report update_with_tangent<3>(const Material<double>&, const Options&, const State<double, 3>&,
+                                              const Tensor<double, 3>&, State<double, 3>&, Tangent<3>&);
+
 }  // namespace fpz
