@@ -260,9 +260,10 @@ double ReferenceIntegrator::elastic_exit(const Y& y, const Mode& mode) const {
   const double a = dt[1] * dt[1] + dt[2] * dt[2] - k2 * dt[0] * dt[0];
   const double b = 2.0 * (t[1] * dt[1] + t[2] * dt[2] + p_.cohesion * tan_phi_ * dt[0] - k2 * t[0] * dt[0]);
   const double c = yield(t, 1.0);
-  const bool on_surface = std::abs(c) < 1e-9 * p_.cohesion * p_.cohesion;
-  if (on_surface && b > 0.0) return 0.0;
-  return first_root(a, b, on_surface ? 0.0 : c, 0.0);
+  const bool on_surface = c > -1e-10 * p_.cohesion * p_.cohesion;
+  if (!on_surface) return first_root(a, b, c, 0.0);
+  if (unloading_) return first_root(a, std::min(b, 0.0), 0.0, 1e-9);  // b is zero to rounding
+  return b > 0.0 ? 0.0 : first_root(a, b, 0.0, 0.0);
 }
 
 double ReferenceIntegrator::event(const Y& y, const Mode& mode, int which) const {
@@ -296,6 +297,7 @@ void ReferenceIntegrator::elastic_phase(double& x) {
   Y end = y + to * rate;
   if (switches) end[0] = 0.0;
   unpack(end);
+  unloading_ = false;
   x = to == 1.0 - x ? 1.0 : x + to;
 }
 
@@ -331,12 +333,18 @@ void ReferenceIntegrator::plastic_phase(double& x) {
     }
     y = next;
     x = fired < 0 && taken == 1.0 - x ? 1.0 : x + taken;
-    if (fired == 0) break;
+    if (fired == 0) {
+      unloading_ = true;
+      break;
+    }
     if (fired == 1) mode.tension = !mode.tension;
     if (fired == 2) mode.shear_sign = -mode.shear_sign;
     h = taken * (fired < 0 ? std::min(4.0, 0.9 * std::pow(e + 1e-10, -0.2)) : 0.5);
     h = std::max(h, 1e-9);
   }
+  // The drift off the yield surface, far below the tolerance per step, is taken out of the normal traction.
+  const double apex = (p_.cohesion - p_.tensile_strength * tan_phi_) * y[10];
+  y[0] = (p_.cohesion * y[10] - std::sqrt(y[1] * y[1] + y[2] * y[2] + apex * apex)) / tan_phi_;
   unpack(y);
 }
 
@@ -375,8 +383,9 @@ void ReferenceIntegrator::advance(const Matrix3& dstrain, const Vector3& hint) {
     if (!s_.cracked) return;
   }
   drive_ = s_.frame * elastic_stress(dstrain) * s_.frame.row(0).transpose();
+  unloading_ = false;
   for (int phase = 0; x < 1.0; ++phase) {
-    if (phase > 100000) throw std::runtime_error("reference: too many phases");
+    if (phase > 1000) throw std::runtime_error("reference: too many phases");
     current_mode(pack()).plastic ? plastic_phase(x) : elastic_phase(x);
   }
   s_.strain = target;

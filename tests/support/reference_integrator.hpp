@@ -81,6 +81,7 @@ class ReferenceIntegrator {
   double tolerance_;
   double lambda_, mu_, tan_phi_, tan_psi_;
   ReferenceState s_;
+  bool unloading_ = false;           ///< the last phase ended where plastic loading did
   Vector3 drive_ = Vector3::Zero();  ///< local traction rate of the uncracked bulk, Pa per unit of the increment
 };
 
