@@ -61,20 +61,23 @@ class YieldingPhase {
     });
   }
 
-  /// Error of a step against the tolerance on t/sigma_t0 and D. The normal jump
-  /// keeps a weight when w -> 0, because the position of a closed crack depends
-  /// on it.
+  /// Error of a step against the tolerance on t/sigma_t0 and D. When w -> 0 the traction vanishes, but the scaled
+  /// traction still sets where a closing crack meets resistance (up_n = q_n - c_n tau_n), so it keeps a weight,
+  /// relative to its size.
   [[nodiscard]] double error_norm(const RatePoint<T, NS>& r, const Y& error) const {
     const double w = value(r.w);
-    const double contact = value(r.c.normal) / (value(law_.flexibility_n) + value(series_.normal) + 1e-300);
-    const double weight = std::max(w, contact) / value(law_.tensile_strength);
+    const double strength = value(law_.tensile_strength);
+    const double open = value(law_.flexibility_n);
+    const double bulk = value(series_.normal);
+    const double level = (std::abs(value(r.hyp.normal)) + value(r.shear)) / strength;
+    const double contact = (open + w * bulk) / ((open + bulk) * (1.0 + level));
+    const double weight = std::max(w, contact) / strength;
     double shear2 = 0.0;
     double normal = 0.0;
     for (int k = 0; k < NS; ++k) {
       shear2 += value(error[k]) * value(error[k]);
       normal += value(r.normal_s[k]) * value(error[k]);
     }
-    const double level = (std::abs(value(r.hyp.normal)) + value(r.shear)) / value(law_.tensile_strength);
     const double damage_error = w * std::abs(value(error[NS])) / value(law_.delta0) * std::max(1.0, level);
     return std::max({std::sqrt(shear2) * weight, std::abs(normal) * weight, damage_error});
   }
