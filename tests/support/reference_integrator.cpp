@@ -263,7 +263,7 @@ double ReferenceIntegrator::elastic_exit(const Y& y, const Mode& mode) const {
   const bool on_surface = c > -1e-10 * p_.cohesion * p_.cohesion;
   if (!on_surface) return first_root(a, b, c, 0.0);
   if (unloading_) return first_root(a, std::min(b, 0.0), 0.0, 1e-9);  // b is zero to rounding
-  return b > 0.0 ? 0.0 : first_root(a, b, 0.0, 0.0);
+  return b > 0.0 || (b == 0.0 && a > 0.0) ? 0.0 : first_root(a, b, 0.0, 0.0);
 }
 
 double ReferenceIntegrator::event(const Y& y, const Mode& mode, int which) const {

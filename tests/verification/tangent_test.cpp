@@ -187,5 +187,119 @@ TEST(Tangent, Accurate3D) {
   check_tangents<3>(points_of<3>(paths3(), o), o, 1e-6);
 }
 
+/// dt/du of Algorithm 1: loading, unloading, compression, in 2-D and 3-D.
+template <int Dim>
+void check_cohesive_tangent(Method method) {
+  const CohesiveLaw<double> law = make_cohesive_law(table1());
+  const Options o = options_for(method);
+  Vec<double, Dim> onset = Vec<double, Dim>::Zero();
+  onset[1] = 0.3e6;
+  onset[0] = (law.cohesion - std::hypot(onset[1], law.apex)) / law.tan_phi;
+  CohesiveState<double, Dim> z = cracked_at<double, Dim>(law, onset);
+  const double moves[][3] = {{2e-6, 1e-6, 1e-6},  {5e-6, 1e-6, -1e-6}, {-2e-9, -1e-9, 0.0}, {4e-6, -9e-6, 2e-6},
+                             {-3e-5, 1e-6, 1e-6}, {0.0, 2e-5, 4e-6},   {1e-7, -3e-5, 1e-5}, {6e-5, 1e-5, 1e-6}};
+  for (const auto& move : moves) {
+    Vec<double, Dim> du;
+    for (int k = 0; k < Dim; ++k) du[k] = move[k];
+    CohesiveState<double, Dim> end;
+    Mat<double, Dim, Dim> tangent;
+    ASSERT_TRUE(cohesive_update(law, o, z, du, end, &tangent).ok());
+    const auto f = [&](int j, double h) -> Eigen::Matrix<double, Dim, 1> {
+      Vec<double, Dim> d = du;
+      d[j] += h;
+      CohesiveState<double, Dim> s;
+      EXPECT_TRUE(cohesive_update(law, o, z, d, s).ok());
+      return s.traction;
+    };
+    const Differences<Dim, Dim> fd(f, 1e-6 * law.delta0);
+    const double size = law.tensile_strength / law.delta0 + tangent.cwiseAbs().maxCoeff();
+    EXPECT_LE((fd.central - tangent).cwiseAbs().maxCoeff(), 2e-6 * size + 2.0 * fd.error.maxCoeff())
+        << to_string(method) << "\n"
+        << fd.central << "\ntangent\n"
+        << tangent;
+    EXPECT_LE(fd.error.maxCoeff(), 1e-4 * size);
+    z = end;
+  }
+}
+
+TEST(Tangent, CohesiveUpdate) {
+  for (const Method method : {Method::implicit, Method::accurate}) {
+    check_cohesive_tangent<2>(method);
+    check_cohesive_tangent<3>(method);
+  }
+}
+
+/// The eleven parameters as an array.
+constexpr double Parameters::*parameter_members[] = {
+    &Parameters::young_modulus,      &Parameters::poisson_ratio, &Parameters::density,
+    &Parameters::tensile_strength,   &Parameters::cohesion,      &Parameters::friction_angle_deg,
+    &Parameters::dilation_angle_deg, &Parameters::delta0,        &Parameters::normal_stiffness,
+    &Parameters::shear_stiffness,    &Parameters::rve_length};
+constexpr int parameter_count = 11;
+using ParameterJet = ceres::Jet<double, parameter_count>;
+
+BasicParameters<ParameterJet> seeded(const Parameters& p) {
+  ParameterJet x[parameter_count];
+  for (int k = 0; k < parameter_count; ++k) x[k] = ParameterJet(p.*parameter_members[k], k);
+  return {x[0], x[1], x[2], x[3], x[4], x[5], x[6], x[7], x[8], x[9], x[10]};
+}
+
+/// Stress after a whole path, for given parameters.
+Tensor<double, 2> stress_after(const Path<2>& path, const Parameters& p, const Options& o, int count) {
+  const Material<double> m = make_material(p, path.setting);
+  State2 s;
+  for (const Tensor<double, 2>& leg : path.legs) {
+    const Tensor<double, 2> d = leg / count;
+    for (int k = 0; k < count; ++k) EXPECT_TRUE(update<2>(m, o, s, d, s).ok());
+  }
+  return s.stress;
+}
+
+/// Derivatives of the stress at the end of a path (onset, loading, unloading, closing inside) with respect to every
+/// parameter, carried along the whole path.
+void check_parameter_derivatives(const Path<2>& path, Method method) {
+  const Options o = options_for(method);
+  const int count = 25;
+  const Material<ParameterJet> m = make_material(seeded(path.parameters), path.setting);
+  State<ParameterJet, 2> s;
+  for (const Tensor<double, 2>& leg : path.legs) {
+    Tensor<ParameterJet, 2> d;
+    for (int k = 0; k < 3; ++k) d[k] = ParameterJet(leg[k] / count);
+    for (int k = 0; k < count; ++k) ASSERT_TRUE(update<2>(m, o, s, d, s).ok());
+  }
+  const double size = path.parameters.tensile_strength;
+  for (int j = 0; j < parameter_count; ++j) {
+    SCOPED_TRACE(path.name + " " + to_string(method) + " parameter " + std::to_string(j));
+    const double x = path.parameters.*parameter_members[j];
+    const auto at = [&](double factor) {
+      Parameters p = path.parameters;
+      p.*parameter_members[j] = x * factor;
+      return stress_after(path, p, o, count);
+    };
+    const double h = 1e-5;
+    const Tensor<double, 2> fine = (at(1.0 + h) - at(1.0 - h)) / (2.0 * h);
+    const Tensor<double, 2> coarse = (at(1.0 + 2.0 * h) - at(1.0 - 2.0 * h)) / (4.0 * h);
+    for (int k = 0; k < 3; ++k) {
+      // d stress / d log(parameter), over sigma_t0
+      const double jet = s.stress[k].v[j] * x / size;
+      const double fd = (4.0 * fine[k] - coarse[k]) / 3.0 / size;
+      const double error = std::abs(fine[k] - coarse[k]) / size;
+      EXPECT_NEAR(jet, fd, 1e-5 * (1.0 + std::abs(fd)) + 2.0 * error) << k;
+      EXPECT_LE(error, 1e-3 * (1.0 + std::abs(fd))) << k;
+    }
+  }
+}
+
+TEST(ParameterDerivatives, Implicit) {
+  for (const Path<2>& path : {mixed_mode(), compressive_shear(), closing(), plane_stress_cycle()}) {
+    check_parameter_derivatives(path, Method::implicit);
+  }
+}
+TEST(ParameterDerivatives, Accurate) {
+  for (const Path<2>& path : {mixed_mode(), compressive_shear(), closing(), plane_stress_cycle()}) {
+    check_parameter_derivatives(path, Method::accurate);
+  }
+}
+
 }  // namespace
 }  // namespace fpz::test
