@@ -92,6 +92,30 @@ void cracked_tangent(State& state, Method method, double tolerance, double facto
   });
 }
 
+/// Stage 2 of the four-stage path at the paper's increments, one update after the other on one state.
+void stage_2(State& state) {
+  constexpr int updates = 2000;
+  const Material<double> m = johnstone<2>();
+  const Tensor<double, 2> d = mixed_loading<2>(paper_increment);
+  fpz::State<double, 2> begin, s;
+  const Tensor<double, 2> stage_1 = test::strain2(12000 * paper_increment, 0, 0);
+  if (!update<2>(m, options_of(Method::accurate, 1e-10), begin, stage_1, begin).ok()) {
+    state.SkipWithError("stage 1");
+    return;
+  }
+  const Options o = options_of(Method::implicit);
+  int done = updates;
+  run(state, [&](int) {
+    if (++done > updates) {
+      s = begin;
+      done = 1;
+    }
+    const Report r = update<2>(m, o, s, d, s);
+    benchmark::DoNotOptimize(s);
+    return r;
+  });
+}
+
 /// Algorithm 1 alone: the jump that the same strain increment brings is imposed.
 void algorithm1(State& state, Method method, double tolerance, double factor) {
   const Material<double> m = johnstone<2>();
@@ -167,6 +191,7 @@ void register_benchmarks() {
   add_dimension<2>();
   add_dimension<3>();
   add("onset scan/2d/0.1 deg", [](State& s) { plane_search<2>(s, 0.1); });
+  add("yielding/2d/implicit/stage 2", stage_2);
   add("algorithm 1/2d/implicit/1x", [](State& s) { algorithm1(s, Method::implicit, 1e-4, 1.0); });
   add("algorithm 1/2d/accurate 1e-6/1x", [](State& s) { algorithm1(s, Method::accurate, 1e-6, 1.0); });
   add("algorithm 1/2d/paper/0.5x", [](State& s) { algorithm1(s, Method::paper, 1e-4, 0.5); });
