@@ -147,6 +147,8 @@ template <class T, int Dim, class P>
   const Vec<T, Dim> rate = d1 - d0;
   T fraction = T(0.0);
   int stalled = 0;
+  double skip = 1e-12;
+
   for (int phase_number = 0;; ++phase_number) {
     if (phase_number > 1000) {
       report.status = Status::non_convergence;
@@ -160,8 +162,10 @@ template <class T, int Dim, class P>
     // A grazing contact that does not load is passed over; its overshoot is of
     // second order in the distance skipped.
     if (stalled > 1) {
-      fraction += 1e-9;
+      fraction += skip;
+      skip *= 8.0;
       stalled = 0;
+
       if (value(fraction) >= 1.0) break;
       continue;
     }

@@ -152,65 +152,75 @@ template <class T, int NS, class P>
   return jac;
 }
 
-/// Fraction x >= 0 at which the straight path (n, s) + x (dn, ds) leaves  |s|^2
-/// + a^2 <= (c - n tan_phi)^2  on the physical branch, started inside (or on
-/// the surface, to rounding). Negative: it never leaves. Closed form.
+/// Fraction x >= 0 at which the straight path (n, s) + x (dn, ds) leaves  |s|^2 + a^2 <= (c - n tan_phi)^2  on the
+/// physical branch, started inside (or on the surface, to rounding). Negative: it never leaves. Closed form.
 template <int NS, class T, class P>
 [[nodiscard]] FPZ_INLINE T exit_fraction(const P& tan_phi, const T& c, const T& a, const T& n, const Vec<T, NS>& s,
                                          const T& dn, const Vec<T, NS>& ds) {
   using std::sqrt;
   const T l = c - n * tan_phi;
   const T dl = -dn * tan_phi;
-  T qa = -dl * dl;
-  T qb = -l * dl;
-  T qc = a * a - l * l;
+  T ss = T(0.0);
+  T sd = T(0.0);
+  T dd = T(0.0);
+  T cross = T(0.0);
   for (int k = 0; k < NS; ++k) {
-    qa += ds[k] * ds[k];
-    qb += s[k] * ds[k];
-    qc += s[k] * s[k];
+    ss += s[k] * s[k];
+    sd += s[k] * ds[k];
+    dd += ds[k] * ds[k];
+    const T twist = l * ds[k] - dl * s[k];
+    cross += twist * twist;
   }
-  if (value(qc) > 0.0) qc = T(0.0);  // outside by rounding: the start is on the surface
-  const T disc = qb * qb - qa * qc;  // qa x^2 + 2 qb x + qc = 0
+  // qa x^2 + 2 qb x + qc = 0. The discriminant qb^2 - qa qc is written without its leading terms, which cancel.
+  const T qa = dd - dl * dl;
+  const T qb = sd - l * dl;
+  T qc = ss + a * a - l * l;
+  T disc = cross - a * a * qa;
+  if constexpr (NS > 1) disc -= ss * dd - sd * sd;
+  if (value(qc) > 0.0) {  // outside by rounding: the start is on the surface
+    qc = T(0.0);
+    disc = qb * qb;
+  }
   if (value(disc) < 0.0) return T(-1.0);
   if (value(qb) > 0.0) return -qc / (qb + sqrt(disc));
   if (value(qa) <= 0.0) return T(-1.0);
   return value(disc) > 0.0 ? T((sqrt(disc) - qb) / qa) : T(-qb / qa);
 }
 
-/// First fraction in [0, 1] at which the elastic drive q0 + x dq reaches the
-/// yield surface, or a negative value. Scaled tractions in tension, plain ones
-/// in compression, so that w = 0 is no special case; the path has a kink where
-/// q_n = 0.
+/// First fraction in [0, 1] at which the elastic drive q0 + x dq reaches the yield surface, or a negative value. Scaled
+/// tractions in tension, plain ones in compression, so that w = 0 is no special case; the path has a kink where q_n =
+/// 0. The elastic domain is convex, so a straight piece that ends inside never left it.
 template <int Dim, class T, class P>
 [[nodiscard]] FPZ_INLINE T yield_entry(const CohesiveLaw<P>& law, const SeriesCompliance<P>& series, const T& w,
                                        const Vec<T, Dim>& q0, const Vec<T, Dim>& dq) {
   constexpr int NS = Dim - 1;
-  T from = T(0.0);
-  T to = T(1.0);
   bool tension = value(q0[0]) > 0.0 || (value(q0[0]) == 0.0 && value(dq[0]) >= 0.0);
   const double end_n = value(q0[0]) + value(dq[0]);
   const bool crosses = tension ? end_n < 0.0 : end_n > 0.0;
-  for (int piece = 0; piece < (crosses ? 2 : 1); ++piece) {
-    if (crosses) {
-      const T kink = -q0[0] / dq[0];
-      (piece == 0 ? to : from) = kink;
-      if (piece == 1) {
-        to = T(1.0);
-        tension = !tension;
-      }
-    }
+  const T kink = crosses ? T(-q0[0] / dq[0]) : T(1.0);
+  const T inverse_cs = 1.0 / (law.flexibility_s + w * series.shear);
+  for (int piece = 0; piece < (crosses ? 2 : 1); ++piece, tension = !tension) {
+    const T from = piece == 0 ? T(0.0) : kink;
+    const T to = piece == 0 ? kink : T(1.0);
     const T scale = tension ? T(1.0) : w;
-    const T cn = tension ? T(law.flexibility_n + w * series.normal) : T(law.flexibility_n + series.normal);
-    const T cs = law.flexibility_s + w * series.shear;
-    const Vec<T, Dim> start = q0 + dq * from;
+    const T inverse_cn = 1.0 / (law.flexibility_n + (tension ? w : T(1.0)) * series.normal);
+    const T c = scale * law.cohesion;
+    const T a = scale * law.apex;
+    const T n = (q0[0] + dq[0] * from) * inverse_cn;
+    const T dn = dq[0] * inverse_cn;
+    const double length = value(to) - value(from);
+    const double l_end = value(c) - (value(n) + length * value(dn)) * value(law.tan_phi);
+    double outside = value(a) * value(a) - l_end * l_end;
     Vec<T, NS> s, ds;
     for (int k = 0; k < NS; ++k) {
-      s[k] = scale * start[k + 1] / cs;
-      ds[k] = scale * dq[k + 1] / cs;
+      s[k] = scale * (q0[k + 1] + dq[k + 1] * from) * inverse_cs;
+      ds[k] = scale * dq[k + 1] * inverse_cs;
+      const double s_end = value(s[k]) + length * value(ds[k]);
+      outside += s_end * s_end;
     }
-    const T x = exit_fraction<NS>(law.tan_phi, T(scale * law.cohesion), T(scale * law.apex), T(start[0] / cn), s,
-                                  T(dq[0] / cn), ds);
-    if (value(x) >= 0.0 && value(from) + value(x) <= value(to)) return from + x;
+    if (l_end > 0.0 && outside <= 0.0) continue;
+    const T x = exit_fraction<NS>(law.tan_phi, c, a, n, s, dn, ds);
+    if (value(x) >= 0.0 && value(x) <= length) return from + x;
   }
   return T(-1.0);
 }
