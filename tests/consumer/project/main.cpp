@@ -1,8 +1,8 @@
-// What an outside program does first: state a material, have it checked, read the verdict.
+// What an outside program does: state a material, have it checked, update points singly and in a batch.
 #include <cstdio>
+#include <vector>
 
-#include "fpz/material.hpp"
-#include "fpz/parameters.hpp"
+#include "fpz/batch.hpp"
 
 int main() {
   fpz::Parameters p;
@@ -25,6 +25,17 @@ int main() {
   }
   const auto material = fpz::make_material(p, fpz::Setting::plane_strain);
   std::printf("lambda = %g Pa, mu = %g Pa\n", material.bulk.lambda, material.bulk.mu);
+
+  std::vector<fpz::State2> points(100);
+  fpz::Tensor<double, 2> stretch;
+  stretch << 3e-3, 0.0, 0.0;
+  const std::vector<fpz::Tensor<double, 2>> increments(points.size(), stretch);
+  const fpz::Options options;
+  const fpz::BatchReport batch = fpz::update_batch<2>(material, options, points, increments, points);
+  fpz::State2 point;
+  const fpz::Report single = fpz::update<2>(material, options, point, stretch, point);
+  std::printf("D = %g in all %zu points\n", fpz::damage(point), batch.cracked);
+  if (!batch.ok() || !single.ok() || batch.cracked != points.size() || points.back().stress != point.stress) return 1;
 
   p.cohesion = 0.3e6;
   const fpz::Validation bad = fpz::validate(p, fpz::Setting::plane_strain);
