@@ -171,16 +171,20 @@ template <int NS, class T, class P>
     const T twist = l * ds[k] - dl * s[k];
     cross += twist * twist;
   }
-  // qa x^2 + 2 qb x + qc = 0. The discriminant qb^2 - qa qc is written without its leading terms, which cancel.
+  // qa x^2 + 2 qb x + qc = 0. For qa < 0 the leading terms of the discriminant cancel and are left out; otherwise it is
+  // a
+  // sum of non-negative terms.
+
   const T qa = dd - dl * dl;
   const T qb = sd - l * dl;
   T qc = ss + a * a - l * l;
-  T disc = cross - a * a * qa;
-  if constexpr (NS > 1) disc -= ss * dd - sd * sd;
-  if (value(qc) > 0.0) {  // outside by rounding: the start is on the surface
-    qc = T(0.0);
-    disc = qb * qb;
+  if (value(qc) > 0.0) qc = T(0.0);  // outside by rounding: the start is on the surface
+  T disc = qb * qb - qa * qc;
+  if (value(qa) < 0.0 && value(qc) < 0.0) {
+    disc = cross - a * a * qa;
+    if constexpr (NS > 1) disc -= ss * dd - sd * sd;
   }
+
   if (value(disc) < 0.0) return T(-1.0);
   if (value(qb) > 0.0) return -qc / (qb + sqrt(disc));
   if (value(qa) <= 0.0) return T(-1.0);
