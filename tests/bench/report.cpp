@@ -385,7 +385,8 @@ void findings(std::ostream& out, const Results& r) {
     for (const WalkError& e : row.at) ratio = std::max(ratio, e.worst() / row.tolerance);
   }
   out << "- `accurate` stays within " << print("%.2g", ratio)
-      << " of the requested tolerance on all six paths. Its sub-steps do not depend on the output\n  increment, so a "
+      << " of the requested tolerance on all six paths. The tolerance alone sets its sub-steps, whatever\n  the output "
+         "increment, so a "
          "whole stage can be one update. It errs on the safe side: the loosest tolerances cost more than they need.\n";
   double low = 1e9;
   double high = 0.0;
@@ -408,7 +409,7 @@ void findings(std::ostream& out, const Results& r) {
   if (r.time_to_error.size() > 4) {
     const auto& t = r.time_to_error;
     out << "- To " << sci(target_error) << " of `sigma_t0` on the four-stage path `implicit` needs "
-        << times(t[0].seconds / t[1].seconds) << " times less time than `paper`, `accurate` "
+        << times(t[0].seconds / t[1].seconds) << " times less time than `paper`,\n  `accurate` "
         << times(t[0].seconds / t[3].seconds) << " times less with\n  one update per stage ("
         << times(t[0].seconds / t[2].seconds) << " at tolerance 1e-4) and " << times(t[0].seconds / t[4].seconds)
         << " times less with an output every 9e-5. With an output at each of the paper's increments the\n  number of "
