@@ -384,10 +384,10 @@ void findings(std::ostream& out, const Results& r) {
   for (const ToleranceRow& row : r.tolerance) {
     for (const WalkError& e : row.at) ratio = std::max(ratio, e.worst() / row.tolerance);
   }
-  out << "- `accurate` stays within " << print("%.2g", ratio)
-      << " of the requested tolerance on all six paths. The tolerance alone sets its sub-steps, whatever\n  the output "
-         "increment, so a "
-         "whole stage can be one update. It errs on the safe side: the loosest tolerances cost more than they need.\n";
+  out << "- The error of `accurate` is at most " << print("%.2g", ratio)
+      << " times the requested tolerance, on all six paths and at all output\n  increments. It needs no small "
+         "increments: a "
+         "whole stage can be one update. It errs on the safe side, so loose\n  tolerances cost more than they need.\n";
   double low = 1e9;
   double high = 0.0;
   for (const PathStudy& p : r.paths) {
