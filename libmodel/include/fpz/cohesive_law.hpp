@@ -1,5 +1,5 @@
-// Algorithm 1: the stress return of the cohesive fracture law (section 3.3),
-// and the same return in series with an elastic bulk.
+// Algorithm 1: the stress return of the cohesive fracture law (section 3.3), and the same return in series with an
+// elastic bulk.
 #pragma once
 
 #include "fpz/integrate_accurate.hpp"
@@ -8,9 +8,8 @@
 
 namespace fpz {
 
-/// Integrates the cohesive zone while its drive goes straight from d0 to d1
-/// (local frame, m). The jump follows from traction continuity u = d - b t (eq
-/// 40, 41, 58); with zero compliance the drive is the jump itself, which is
+/// Integrates the cohesive zone while its drive goes straight from d0 to d1 (local frame, m). The jump follows from
+/// traction continuity u = d - b t (eq 40, 41, 58); with zero compliance the drive is the jump itself, which is
 /// Algorithm 1. On failure `end` is left untouched.
 template <class T, int Dim, class P>
 [[nodiscard]] Report integrate_cohesive(const CohesiveLaw<P>& law, const SeriesCompliance<P>& series,
@@ -27,8 +26,7 @@ template <class T, int Dim, class P>
   return {Status::invalid_input, 0, 0, false};
 }
 
-/// A zone that has just cracked under the traction `t_onset` (local frame, Pa):
-/// zero jump, offset u0 = K^-1 t_onset.
+/// A zone that has just cracked under the traction `t_onset` (local frame, Pa): zero jump, offset u0 = K^-1 t_onset.
 template <class T, int Dim, class P>
 [[nodiscard]] CohesiveState<T, Dim> cracked_at(const CohesiveLaw<P>& law, const Vec<T, Dim>& t_onset) {
   CohesiveState<T, Dim> z;
@@ -38,9 +36,8 @@ template <class T, int Dim, class P>
   return z;
 }
 
-/// Algorithm 1: traction after the jump increment `du` (local frame, m). With
-/// `tangent`, also dt/du (Pa/m) consistent with the discrete update. `end` (and
-/// `tangent`) are written only when the status is ok.
+/// Algorithm 1: traction after the jump increment `du` (local frame, m). With `tangent`, also dt/du (Pa/m) consistent
+/// with the discrete update. `end` (and `tangent`) are written only when the status is ok.
 template <class T, int Dim, class P>
 [[nodiscard]] Report cohesive_update(const CohesiveLaw<P>& law, const Options& options,
                                      const CohesiveState<T, Dim>& begin, const Vec<T, Dim>& du,

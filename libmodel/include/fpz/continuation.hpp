@@ -1,10 +1,9 @@
-// Jump control (arc length): the inelastic displacement kappa = up_n + up_s
-// drives the point instead of the size of the strain.
+// Jump control (arc length): the inelastic displacement kappa = up_n + up_s drives the point instead of the size of the
+// strain.
 //
-// Along strain = begin + x * direction the rate equations (rate.hpp) give
-// dx/dkappa = h / numerator, which passes smoothly through h = 0: where strain
-// control snaps back, x just turns round. So softening that is too brittle for
-// its H can still be followed.
+// Along strain = begin + x * direction the rate equations (rate.hpp) give dx/dkappa = h / numerator, which passes
+// smoothly through h = 0: where strain control snaps back, x just turns round. So softening that is too brittle for its
+// H can still be followed.
 #pragma once
 
 #include "fpz/double_scale.hpp"
@@ -13,8 +12,7 @@ namespace fpz {
 
 namespace detail {
 
-/// Yielding along a fixed drive direction with kappa as the independent
-/// variable: y = (tau_s, x, kappa).
+/// Yielding along a fixed drive direction with kappa as the independent variable: y = (tau_s, x, kappa).
 template <int Dim>
 class ControlledPhase {
  public:
@@ -97,8 +95,7 @@ class ControlledPhase {
   Vec<double, Dim> rate_;
 };
 
-/// Runs the phase over `length` of kappa; y and the dissipated energy are
-/// updated.
+/// Runs the phase over `length` of kappa; y and the dissipated energy are updated.
 template <int Dim>
 [[nodiscard]] Status run_controlled(ControlledPhase<Dim>& phase, const Options& options, double strength, double delta0,
                                     double length, typename ControlledPhase<Dim>::Y& y, double& dissipated,
@@ -158,8 +155,7 @@ template <int Dim>
   return Status::ok;
 }
 
-/// Scales a direction until `reached` holds, by doubling from a small strain;
-/// negative when it never does.
+/// Scales a direction until `reached` holds, by doubling from a small strain; negative when it never does.
 template <class F>
 [[nodiscard]] double expand_until(const F& reached) {
   for (double x = 1e-9; x < 1e3; x *= 2.0) {
@@ -170,13 +166,11 @@ template <class F>
 
 }  // namespace detail
 
-/// Advances the inelastic displacement kappa = up_n + up_s (m) by exactly
-/// `dkappa` > 0 along begin.strain + load_factor * direction / |direction|_max;
-/// load_factor (a strain) is found and may be negative where the path snaps
-/// back. An uncracked or elastic begin state first goes elastically, along
-/// +direction, to onset or yield. Integrated with the `accurate` scheme to
-/// options.tolerance whatever options.method says. On failure `end` equals
-/// `begin`: non_convergence means that the direction never loads the zone.
+/// Advances the inelastic displacement kappa = up_n + up_s (m) by exactly `dkappa` > 0 along begin.strain + load_factor
+/// * direction / |direction|_max; load_factor (a strain) is found and may be negative where the path snaps back. An
+/// uncracked or elastic begin state first goes elastically, along +direction, to onset or yield. Integrated with the
+/// `accurate` scheme to options.tolerance whatever options.method says. On failure `end` equals `begin`:
+/// non_convergence means that the direction never loads the zone.
 template <int Dim>
 [[nodiscard]] Report update_controlled(const Material<double>& m, const Options& o, const State<double, Dim>& begin,
                                        const Tensor<double, Dim>& direction, double dkappa, State<double, Dim>& end,

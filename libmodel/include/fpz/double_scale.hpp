@@ -1,6 +1,5 @@
-// Algorithm 2: the double-scale model of an RVE. Elastic until a plane fails;
-// then an elastic bulk in series with the embedded cohesive zone, coupled by
-// traction continuity (eq 39-42).
+// Algorithm 2: the double-scale model of an RVE. Elastic until a plane fails; then an elastic bulk in series with the
+// embedded cohesive zone, coupled by traction continuity (eq 39-42).
 #pragma once
 
 #include "fpz/cohesive_law.hpp"
@@ -8,8 +7,8 @@
 
 namespace fpz {
 
-/// State of a material point. Strain is the total strain (tensor components);
-/// the crack part has meaning only when `cracked`.
+/// State of a material point. Strain is the total strain (tensor components); the crack part has meaning only when
+/// `cracked`.
 template <class T, int Dim>
 struct State {
   Tensor<T, Dim> strain = Tensor<T, Dim>::Constant(T(0.0));
@@ -22,9 +21,8 @@ struct State {
 using State2 = State<double, 2>;
 using State3 = State<double, 3>;
 
-/// d(stress)/d(strain) on stored components: column j is the derivative with
-/// respect to stored strain component j, so a shear column belongs to the
-/// tensor shear strain (which moves both eps_xy and eps_yx): 2 mu when elastic.
+/// d(stress)/d(strain) on stored components: column j is the derivative with respect to stored strain component j, so a
+/// shear column belongs to the tensor shear strain (which moves both eps_xy and eps_yx): 2 mu when elastic.
 template <int Dim>
 using Tangent = Mat<double, tensor_size<Dim>, tensor_size<Dim>>;
 
@@ -49,8 +47,7 @@ template <class T, int Dim>
   return e;
 }
 
-/// Elastic strain of the bulk, eps - sym(n (x) u)/H (eq 41), for a jump u in
-/// the local frame.
+/// Elastic strain of the bulk, eps - sym(n (x) u)/H (eq 41), for a jump u in the local frame.
 template <class T, int Dim, class P>
 [[nodiscard]] FPZ_INLINE Tensor<T, Dim> bulk_strain(const Material<P>& m, const State<T, Dim>& s) {
   if (!s.cracked) return s.strain;
@@ -67,8 +64,8 @@ template <class T, int Dim, class P>
 
 namespace detail {
 
-/// Elastic traction of the uncracked bulk on the plane, R n.(a0:eps), times the
-/// series compliance: the drive of the zone (m).
+/// Elastic traction of the uncracked bulk on the plane, R n.(a0:eps), times the series compliance: the drive of the
+/// zone (m).
 template <class T, int Dim, class P>
 [[nodiscard]] FPZ_INLINE Vec<T, Dim> drive(const Material<P>& m, const Mat<T, Dim, Dim>& frame,
                                            const Tensor<T, Dim>& strain) {
@@ -91,10 +88,9 @@ template <int Dim, class T, class P>
                                      : critical_plane<Dim>(m, stress, o.preferred_normal);
 }
 
-/// Opens the crack inside the increment. `paper` takes the plane at the end and
-/// the traction at the begin of the increment (Algorithm 2, lines 11-17); the
-/// others find the point of the path at which the plane fails. `scan` only sets
-/// the orientation.
+/// Opens the crack inside the increment. `paper` takes the plane at the end and the traction at the begin of the
+/// increment (Algorithm 2, lines 11-17); the others find the point of the path at which the plane fails. `scan` only
+/// sets the orientation.
 template <int Dim, class T, class P>
 [[nodiscard]] State<T, Dim> open_crack(const Material<P>& m, const Options& o, const State<T, Dim>& begin,
                                        const Tensor<T, Dim>& end_strain, const Tensor<T, Dim>& end_stress) {
@@ -130,8 +126,7 @@ template <int Dim, class T, class P>
   return report;
 }
 
-/// The update proper, for any scalar. Reads `begin` completely before it writes
-/// `end`, and writes only on success.
+/// The update proper, for any scalar. Reads `begin` completely before it writes `end`, and writes only on success.
 template <int Dim, class T, class P>
 [[nodiscard]] Report update_any(const Material<P>& m, const Options& o, const State<T, Dim>& begin,
                                 const Tensor<T, Dim>& dstrain, State<T, Dim>& end) {
@@ -153,12 +148,10 @@ template <int Dim, class T, class P>
 
 }  // namespace detail
 
-/// Stress-strain update of one point over a strain increment (Algorithm 2). The
-/// strain moves on a straight line from begin.strain to begin.strain + dstrain.
-/// On failure `end` equals `begin` and the status says why. begin and end may
-/// be the same object; while a point stays uncracked, only strain, stress and
-/// `cracked` of `end` are written. No heap allocation. T may carry derivatives
-/// (Dual, ceres::Jet), as may the material's P: the result then carries the
+/// Stress-strain update of one point over a strain increment (Algorithm 2). The strain moves on a straight line from
+/// begin.strain to begin.strain + dstrain. On failure `end` equals `begin` and the status says why. begin and end may
+/// be the same object; while a point stays uncracked, only strain, stress and `cracked` of `end` are written. No heap
+/// allocation. T may carry derivatives (Dual, ceres::Jet), as may the material's P: the result then carries the
 /// derivatives of the discrete update, onset and sub-stepping included.
 template <int Dim, class T, class P>
 [[nodiscard]] Report update(const Material<P>& m, const Options& o, const State<T, Dim>& begin,
@@ -168,8 +161,7 @@ template <int Dim, class T, class P>
   return report;
 }
 
-/// The same, with the tangent d(stress)/d(dstrain) consistent with the discrete
-/// update of the chosen integrator.
+/// The same, with the tangent d(stress)/d(dstrain) consistent with the discrete update of the chosen integrator.
 template <int Dim>
 [[nodiscard]] Report update_with_tangent(const Material<double>& m, const Options& o, const State<double, Dim>& begin,
                                          const Tensor<double, Dim>& dstrain, State<double, Dim>& end,
@@ -184,8 +176,8 @@ template <int Dim>
   if (!out.cracked) {
     tangent = elastic_tangent<Dim>(m.bulk);
   } else if (begin.cracked) {
-    // The plane is fixed: only the local drive (Dim numbers) carries
-    // derivatives. dsigma = a0 deps - a0:sym(n (x) dU)/H.
+    // The plane is fixed: only the local drive (Dim numbers) carries derivatives. dsigma = a0 deps - a0:sym(n (x)
+    // dU)/H.
     using D = Dual<Dim>;
     const CohesiveState<D, Dim> zone = lift<D>(begin.crack);
     const Vec<D, Dim> d0 = convert<D>(detail::drive<double, Dim>(m, begin.frame, begin.strain));
@@ -229,15 +221,14 @@ template <int Dim>
   return report;
 }
 
-/// Out-of-plane stress of a 2-D state: zero in plane stress, nu (sigma_xx +
-/// sigma_yy) in plane strain (the jump lies in the plane).
+/// Out-of-plane stress of a 2-D state: zero in plane stress, nu (sigma_xx + sigma_yy) in plane strain (the jump lies in
+/// the plane).
 template <class T, class P>
 [[nodiscard]] T stress_zz(const Material<P>& m, const State<T, 2>& s) {
   return m.setting == Setting::plane_stress ? T(0.0) : T(m.bulk.nu * (s.stress[0] + s.stress[1]));
 }
 
-/// Out-of-plane strain of a 2-D state: zero in plane strain, -nu/E (sigma_xx +
-/// sigma_yy) in plane stress.
+/// Out-of-plane strain of a 2-D state: zero in plane strain, -nu/E (sigma_xx + sigma_yy) in plane stress.
 template <class T, class P>
 [[nodiscard]] T strain_zz(const Material<P>& m, const State<T, 2>& s) {
   if (m.setting == Setting::plane_strain) return T(0.0);
@@ -245,10 +236,8 @@ template <class T, class P>
   return -m.bulk.nu / young * (s.stress[0] + s.stress[1]);
 }
 
-/// Stored energy per volume, J/m^3: elastic energy of the bulk plus that of the
-/// cohesive zone since onset over H. work = stored + dissipated along every
-/// path. See docs/equations.md for why the zone's part can be slightly
-/// negative.
+/// Stored energy per volume, J/m^3: elastic energy of the bulk plus that of the cohesive zone since onset over H. work
+/// = stored + dissipated along every path. See docs/equations.md for why the zone's part can be slightly negative.
 template <class T, int Dim, class P>
 [[nodiscard]] T stored_energy(const Material<P>& m, const State<T, Dim>& s) {
   const T bulk = 0.5 * double_dot<Dim>(s.stress, bulk_strain(m, s));
@@ -267,8 +256,8 @@ template <class T, int Dim>
   return s.cracked ? damage(s.crack) : T(0.0);
 }
 
-/// Rotates a state with a rigid rotation Q of the material (sigma' = Q sigma
-/// Q^T): objective rotation for updated formulations.
+/// Rotates a state with a rigid rotation Q of the material (sigma' = Q sigma Q^T): objective rotation for updated
+/// formulations.
 template <class T, int Dim>
 void rotate(State<T, Dim>& s, const Mat<T, Dim, Dim>& q) {
   const auto turn = [&](Tensor<T, Dim>& a) {

@@ -5,8 +5,7 @@
 
 namespace fpz::detail {
 
-/// Fraction of the requested tolerance that each sub-step may use: the rest is
-/// left for accumulation along a path.
+/// Fraction of the requested tolerance that each sub-step may use: the rest is left for accumulation along a path.
 inline constexpr double local_tolerance_fraction = 0.05;
 
 template <class T, int Dim>
@@ -47,8 +46,7 @@ void choose_branch(const CohesiveLaw<P>& law, YieldingPhase<T, Dim, P>& phase, c
   phase.branch.tension = heading >= 0.0;
 }
 
-/// Runs one yielding phase from `fraction` until the increment ends or the
-/// point unloads.
+/// Runs one yielding phase from `fraction` until the increment ends or the point unloads.
 template <class T, int Dim, class P>
 [[nodiscard]] Yielded<T, Dim> run_yielding(const CohesiveLaw<P>& law, YieldingPhase<T, Dim, P>& phase, Vec<T, Dim> y,
                                            T fraction, const Options& options, Report& report) {
@@ -67,8 +65,7 @@ template <class T, int Dim, class P>
   };
   if (!(value(r.h) > 0.0)) return stop(stuck());
   Vec<T, Dim> f = phase.rates(r);
-  // First guess: a fraction of delta0 that an order-4 method can take at this
-  // tolerance; never more than what is left.
+  // First guess: a fraction of delta0 that an order-4 method can take at this tolerance; never more than what is left.
   const double first = 0.5 * value(law.delta0) * std::pow(options.tolerance, 0.25) / (std::abs(value(f[NS])) + 1e-300);
   double step = std::min(1.0 - value(fraction), first);
   while (value(fraction) < 1.0) {
@@ -104,8 +101,7 @@ template <class T, int Dim, class P>
       }
     }
     const Vec<T, Dim> f1 = phase.rates(r1);
-    // Cubic Hermite mid-point and Simpson's rule: fourth order, as the solution
-    // is.
+    // Cubic Hermite mid-point and Simpson's rule: fourth order, as the solution is.
     const Vec<T, Dim> middle = (y + trial.y) * T(0.5) + (f - f1) * T(h / 8.0);
     const RatePoint<T, NS> rm = phase.point(middle);
     const Vec<T, Dim> fm = phase.rates(rm);
@@ -135,8 +131,7 @@ template <class T, int Dim, class P>
   return out;
 }
 
-/// Integrates the zone along the straight drive d0 -> d1 with local error
-/// control. `end` is written only on success.
+/// Integrates the zone along the straight drive d0 -> d1 with local error control. `end` is written only on success.
 template <class T, int Dim, class P>
 [[nodiscard]] Report integrate_accurate(const CohesiveLaw<P>& law, const SeriesCompliance<P>& series,
                                         const Options& options, const CohesiveState<T, Dim>& begin,
@@ -159,8 +154,9 @@ template <class T, int Dim, class P>
     const T entry = yield_entry<Dim>(law, series, z.integrity, q, Vec<T, Dim>(rate * left));
     if (value(entry) < 0.0 || value(fraction) >= 1.0) break;
     fraction += entry * left;
-    // A grazing contact that does not load is passed over; its overshoot is of
-    // second order in the distance skipped.
+    if (value(fraction) >= 1.0 - 1e-15) break;  // the surface is only touched: the increment ends elastically
+
+    // A grazing contact that does not load is passed over; its overshoot is of second order in the distance skipped.
     if (stalled > 1) {
       fraction += skip;
       skip *= 8.0;
@@ -189,8 +185,7 @@ template <class T, int Dim, class P>
     fraction = yielded.fraction;
     stalled = value(fraction) > before ? 0 : stalled + 1;
     const RatePoint<T, NS> r = phase.point(yielded.y);
-    // The surface and continuity give the plastic jump; a = d(up_n) + d(slip)
-    // gives the slip (eq 47).
+    // The surface and continuity give the plastic jump; a = d(up_n) + d(slip) gives the slip (eq 47).
     const Vec<T, Dim> drive = d0 + rate * fraction + z.offset;
     const T normal = drive[0] - r.c.normal * r.hyp.normal;
     const T slip = yielded.y[NS] - (normal - z.plastic_jump[0]);

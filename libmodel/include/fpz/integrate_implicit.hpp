@@ -1,5 +1,5 @@
-// The `implicit` integrator: elastic trial, snap-back check where yielding
-// starts, backward Euler (return_implicit.hpp).
+// The `implicit` integrator: elastic trial, snap-back check where yielding starts, backward Euler
+// (return_implicit.hpp).
 #pragma once
 
 #include <limits>
@@ -22,9 +22,8 @@ template <int Dim>
   return std::sqrt(qs2) / (law.flexibility_s + w * series.shear);
 }
 
-/// Everything of the end state but the traction, from the traction and the
-/// inelastic increments. Reads `begin` field by field as it writes `end`, so
-/// both may be one object.
+/// Everything of the end state but the traction, from the traction and the inelastic increments. Reads `begin` field by
+/// field as it writes `end`, so both may be one object.
 template <class T, int Dim, class P>
 FPZ_INLINE void write_state(const SeriesCompliance<P>& series, const CohesiveState<T, Dim>& begin,
                             const Vec<T, Dim>& drive, const Vec<T, Dim>& traction, CohesiveState<T, Dim>& end) {
@@ -35,9 +34,8 @@ FPZ_INLINE void write_state(const SeriesCompliance<P>& series, const CohesiveSta
   }
 }
 
-/// Elastic trial: accepted when its overshoot q_n - c_n tau_n(S) of the
-/// surface, a length, is within `tolerance`, which is also the tolerance of the
-/// solve: an update repeated on its own result changes nothing.
+/// Elastic trial: accepted when its overshoot q_n - c_n tau_n(S) of the surface, a length, is within `tolerance`, which
+/// is also the tolerance of the solve: an update repeated on its own result changes nothing.
 struct Trial {
   double shear;      ///< |q_s|
   double tolerance;  ///< m: rounding of the terms that make up q
@@ -137,8 +135,7 @@ template <class T, int Dim, class P>
     end.plastic_jump[k] = begin.plastic_jump[k] + step * tau;
   }
   end.slip = begin.slip + step * s;
-  // Trapezoidal rule in the measure w d(kappa) = delta0 dD: exact in mode I,
-  // and never negative.
+  // Trapezoidal rule in the measure w d(kappa) = delta0 dD: exact in mode I, and never negative.
   end.dissipated =
       begin.dissipated + 0.5 * (root.entry_density + dissipation_density(law, point, s)) * law.delta0 * (w - point.w);
   end.integrity = point.w;

@@ -1,5 +1,4 @@
-// Constants of the bulk and of the cohesive law, derived once from the
-// parameters.
+// Constants of the bulk and of the cohesive law, derived once from the parameters.
 #pragma once
 
 #include <cmath>
@@ -9,9 +8,8 @@
 
 namespace fpz {
 
-/// Linear elastic bulk, sigma = lambda tr(eps) I + 2 mu eps on the stored
-/// components. For plane stress `lambda` is the condensed 2 lambda mu / (lambda
-/// + 2 mu), so that the in-plane law keeps this form.
+/// Linear elastic bulk, sigma = lambda tr(eps) I + 2 mu eps on the stored components. For plane stress `lambda` is the
+/// condensed 2 lambda mu / (lambda + 2 mu), so that the in-plane law keeps this form.
 template <class P>
 struct Elasticity {
   P lambda{};
@@ -31,8 +29,7 @@ struct Elasticity {
   }
 };
 
-/// Constants of the mixed-mode cohesive law (eq 44-50), with the reciprocals
-/// that the inner loops multiply by.
+/// Constants of the mixed-mode cohesive law (eq 44-50), with the reciprocals that the inner loops multiply by.
 template <class P>
 struct CohesiveLaw {
   P kn{};                ///< Kn, Pa/m
@@ -53,9 +50,8 @@ struct CohesiveLaw {
   P flow_1{};
 };
 
-/// Compliance in series with the cohesive zone, in the local frame: jump =
-/// drive - compliance * traction. The elastic bulk of an RVE gives B^-1 = H
-/// diag(1/(lambda+2mu), 1/mu, 1/mu) (model.md 1); zero means the jump itself is
+/// Compliance in series with the cohesive zone, in the local frame: jump = drive - compliance * traction. The elastic
+/// bulk of an RVE gives B^-1 = H diag(1/(lambda+2mu), 1/mu, 1/mu) (docs/equations.md); zero means the jump itself is
 /// driven.
 template <class P>
 struct SeriesCompliance {
@@ -100,8 +96,7 @@ template <class P>
   return law;
 }
 
-/// Replaces the RVE length H (m); everything else is kept. Cheap: two
-/// divisions.
+/// Replaces the RVE length H (m); everything else is kept. Cheap: two divisions.
 template <class P>
 void set_rve_length(Material<P>& m, const P& length) {
   m.rve_length = length;
@@ -110,8 +105,7 @@ void set_rve_length(Material<P>& m, const P& length) {
   m.series.shear = length / m.bulk.mu;
 }
 
-/// Derives the constants. The parameters must have passed validate(); this
-/// function does not check them again.
+/// Derives the constants. The parameters must have passed validate(); this function does not check them again.
 template <class P>
 [[nodiscard]] Material<P> make_material(const BasicParameters<P>& p, Setting setting) {
   using std::cos;
@@ -131,8 +125,8 @@ template <class P>
   return m;
 }
 
-/// The plain values of a law or compliance that carries derivatives: solvers
-/// iterate on these. A plain one is passed through.
+/// The plain values of a law or compliance that carries derivatives: solvers iterate on these. A plain one is passed
+/// through.
 template <class P>
 [[nodiscard]] CohesiveLaw<double> values(const CohesiveLaw<P>& a) {
   return {value(a.kn),

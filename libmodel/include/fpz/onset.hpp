@@ -1,14 +1,10 @@
-// Fracture onset: the plane on which the yield value F (yield.hpp) first
-// reaches zero (section 4.1).
+// Fracture onset: the plane on which the yield value F (yield.hpp) first reaches zero (section 4.1).
 //
-// Two ways to the same answer: the closed form (model.md 3.3) and the paper's
-// scan over plane orientations. Plane convention. In 2-D the plane contains the
-// out-of-plane axis. Two conjugate planes are equally critical whenever the
-// critical plane is inclined. The fixed rule takes the normal turned
-// counter-clockwise (about +z in 2-D) from the direction of the largest
-// principal stress; in 3-D the turn is about the intermediate principal axis,
-// whose sense is fixed by making its z component positive (then y, then x). A
-// preferred normal, when given, overrides the rule.
+// Two ways to the same answer: the closed form (docs/equations.md) and the paper's scan over plane orientations. Plane
+// convention. In 2-D the plane contains the out-of-plane axis. Two conjugate planes are equally critical whenever the
+// critical plane is inclined. The fixed rule takes the normal turned counter-clockwise (about +z in 2-D) from the
+// direction of the largest principal stress; in 3-D the turn is about the intermediate principal axis, whose sense is
+// fixed by making its z component positive (then y, then x). A preferred normal, when given, overrides the rule.
 #pragma once
 
 #include <Eigen/Eigenvalues>
@@ -30,8 +26,7 @@ struct Plane {
   T failure_value = T(-1e300);  ///< F on the plane, Pa; >= 0 means fracture
 };
 
-/// Local frame from the normal: s1 is n turned by +90 degrees about z (2-D), or
-/// s1 = s2 x n with the given s2 (3-D).
+/// Local frame from the normal: s1 is n turned by +90 degrees about z (2-D), or s1 = s2 x n with the given s2 (3-D).
 template <class T>
 [[nodiscard]] Mat<T, 2, 2> frame_from(const Vec<T, 2>& n) {
   Mat<T, 2, 2> r;
@@ -49,9 +44,8 @@ template <class T>
   return r;
 }
 
-/// Traction R sigma n on the plane of a frame (eq 55), local components, Pa.
-/// Scalar arithmetic throughout: packed loads of freshly stored components
-/// would stall, and this is called twice in every update of a cracked point.
+/// Traction R sigma n on the plane of a frame (eq 55), local components, Pa. Scalar arithmetic throughout: packed loads
+/// of freshly stored components would stall, and this is called twice in every update of a cracked point.
 template <class T, int Dim>
 [[nodiscard]] FPZ_INLINE Vec<T, Dim> local_traction(const Mat<T, Dim, Dim>& frame, const Tensor<T, Dim>& stress) {
   Vec<T, Dim> global, local;
@@ -72,8 +66,8 @@ template <class T, int Dim>
 
 namespace detail {
 
-/// Largest F over all planes of the circle with centre p and radius r,
-/// undamaged (Pa); interior plane or tensile vertex.
+/// Largest F over all planes of the circle with centre p and radius r, undamaged (Pa); interior plane or tensile
+/// vertex.
 template <class T, class P>
 [[nodiscard]] T largest_failure_value(const Material<P>& m, const T& p, const T& r) {
   using std::sqrt;
@@ -84,8 +78,8 @@ template <class T, class P>
   return (p + r - law.tensile_strength) * law.tan_phi;
 }
 
-/// Cosine and sine of the angle theta between the critical normal and the
-/// largest principal direction, theta in [0, 90) degrees.
+/// Cosine and sine of the angle theta between the critical normal and the largest principal direction, theta in [0, 90)
+/// degrees.
 template <class T>
 struct Inclination {
   T cosine = T(1.0);
@@ -106,8 +100,7 @@ template <class T, class P>
   return i;
 }
 
-/// Centre and radius of the in-plane Mohr circle, and the direction of its
-/// largest principal stress.
+/// Centre and radius of the in-plane Mohr circle, and the direction of its largest principal stress.
 template <class T>
 struct Circle {
   T p;
@@ -140,16 +133,14 @@ template <class T>
   return c;
 }
 
-/// Principal stresses (largest first) and a right-handed set of principal
-/// directions (columns).
+/// Principal stresses (largest first) and a right-handed set of principal directions (columns).
 template <class T>
 struct Principal {
   Vec<T, 3> values;
   Mat<T, 3, 3> axes;
 };
 
-/// Projects a fixed direction onto the span of two degenerate principal axes,
-/// so that the choice is repeatable.
+/// Projects a fixed direction onto the span of two degenerate principal axes, so that the choice is repeatable.
 inline void align_degenerate(Mat<double, 3, 3>& v, int i, int j, const Vec<double, 3>& preferred) {
   const double x = v.col(i).dot(preferred);
   const double y = v.col(j).dot(preferred);
@@ -208,8 +199,7 @@ template <class T>
   return out;
 }
 
-/// The two conjugate normals cos(theta) e1 +- sin(theta) e3; true picks the
-/// second.
+/// The two conjugate normals cos(theta) e1 +- sin(theta) e3; true picks the second.
 template <int Dim, class T>
 [[nodiscard]] bool second_is_preferred(const Vec<T, Dim>& first, const Vec<T, Dim>& second,
                                        const Vec<double, 3>& preferred) {
@@ -224,8 +214,8 @@ template <int Dim, class T>
 
 }  // namespace detail
 
-/// The critical plane of a stress state in closed form (model.md 3.3): largest
-/// F over all planes, its normal and traction.
+/// The critical plane of a stress state in closed form (docs/equations.md): largest F over all planes, its normal and
+/// traction.
 template <int Dim, class T, class P>
 [[nodiscard]] Plane<T, Dim> critical_plane(const Material<P>& m, const Tensor<T, Dim>& stress,
                                            const Vec<double, 3>& preferred = Vec<double, 3>::Zero()) {
@@ -260,10 +250,8 @@ template <int Dim, class T, class P>
   return plane;
 }
 
-/// The paper's scan (section 4.1) in 2-D: all normals from 0 to 180 degrees at
-/// `resolution_deg`; the first of equal maxima wins unless a preferred normal
-/// decides. Works on the monotone F, so the spurious branch of eq 48 cannot
-/// win.
+/// The paper's scan (section 4.1) in 2-D: all normals from 0 to 180 degrees at `resolution_deg`; the first of equal
+/// maxima wins unless a preferred normal decides. Works on the monotone F, so the spurious branch of eq 48 cannot win.
 template <int Dim, class T, class P>
 [[nodiscard]] Plane<T, Dim> scan_planes(const Material<P>& m, const Tensor<T, Dim>& stress, double resolution_deg,
                                         const Vec<double, 3>& preferred = Vec<double, 3>::Zero()) {
@@ -311,8 +299,7 @@ template <int Dim, class T, class P>
   return plane;
 }
 
-/// Cheap test that a stress is inside the onset surface. False means "look
-/// closer", true is certain.
+/// Cheap test that a stress is inside the onset surface. False means "look closer", true is certain.
 template <int Dim, class P>
 [[nodiscard]] inline bool surely_intact(const Material<P>& m, const Tensor<double, Dim>& s) {
   const double sin_phi = value(m.sin_phi);
@@ -324,8 +311,7 @@ template <int Dim, class P>
     const double room = strength - p * sin_phi;
     return room > 0.0 && d * d + s[2] * s[2] + apex * apex < room * room;
   } else {
-    // r <= sqrt(J2) and centre <= mean + sqrt(J2)/(2 sqrt 3) for the outer Mohr
-    // circle.
+    // r <= sqrt(J2) and centre <= mean + sqrt(J2)/(2 sqrt 3) for the outer Mohr circle.
     const double mean = (s[0] + s[1] + s[2]) / 3.0;
     const double a = s[0] - mean;
     const double b = s[1] - mean;
@@ -340,17 +326,14 @@ template <int Dim, class P>
   }
 }
 
-/// Where on the straight stress path begin + x (end - begin), x in [0, 1], the
-/// failure value reaches zero; the largest F over all planes is a convex
-/// function of x, so there is one crossing. Requires F(end) >= 0. Returns 0
-/// when F(begin)
+/// Where on the straight stress path begin + x (end - begin), x in [0, 1], the failure value reaches zero; the largest
+/// F over all planes is a convex function of x, so there is one crossing. Requires F(end) >= 0. Returns 0 when F(begin)
 /// >= 0.
 template <int Dim, class T, class P>
 [[nodiscard]] T onset_fraction(const Material<P>& m, const Tensor<T, Dim>& begin, const Tensor<T, Dim>& end) {
   const Tensor<T, Dim> rate = end - begin;
   const auto at = [&](double x) { return critical_plane<Dim>(m, Tensor<T, Dim>(begin + rate * T(x))); };
-  // Slope of the largest F: the plane is stationary, so only its traction
-  // changes (envelope theorem).
+  // Slope of the largest F: the plane is stationary, so only its traction changes (envelope theorem).
   const auto slope = [&](const Plane<T, Dim>& plane) {
     const Vec<T, Dim> dt = local_traction<T, Dim>(plane.frame, rate);
     const double ts2 = value(squared_norm(Vec<T, Dim - 1>(plane.traction.template tail<Dim - 1>())));

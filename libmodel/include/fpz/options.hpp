@@ -39,18 +39,18 @@ enum class Method : std::uint8_t {
 
 struct Options {
   Method method = Method::accurate;
-  /// accurate: error of traction over sigma_t0 and of D along a whole path.
-  /// paper: eq 62 (the paper uses 1e-4). implicit: unused.
+  /// accurate: error of traction over sigma_t0 and of D along a whole path. paper: eq 62 (the paper uses 1e-4).
+  /// implicit: unused.
   double tolerance = 1e-6;
   /// paper: limit of the traction-continuity loop (eq 57-61).
   int max_iterations = 100;
   /// accurate: limit of sub-steps in one update.
   int max_substeps = 20000;
-  /// Onset: 0 takes the closed form (model.md 3.3); otherwise the paper's scan
-  /// (section 4.1) at this resolution in degrees.
+  /// Onset: 0 takes the closed form (docs/equations.md); otherwise the paper's scan (section 4.1) at this resolution in
+  /// degrees.
   double scan_resolution_deg = 0.0;
-  /// Of two equally critical conjugate planes, take the one whose normal is
-  /// closer to this direction. Zero: the fixed rule of onset.hpp.
+  /// Of two equally critical conjugate planes, take the one whose normal is closer to this direction. Zero: the fixed
+  /// rule of onset.hpp.
   Vec<double, 3> preferred_normal = Vec<double, 3>::Zero();
 };
 

@@ -1,8 +1,7 @@
-// The rate problem of a cracked point on its yield surface, as an autonomous
-// ODE.
+// The rate problem of a cracked point on its yield surface, as an autonomous ODE.
 //
-// With the drive q moving at a constant rate q' (per unit of the increment), y
-// = (tau_s, a) obeys (model.md 3.1, eq 63-67)
+// With the drive q moving at a constant rate q' (per unit of the increment), y = (tau_s, a) obeys (docs/equations.md,
+// eq 63-67)
 //   c_n dtau_n/dtau_s . tau_s' + (m_n/D - w tau_n c_n,w / delta0) a' = q_n'
 //   c_s tau_s'                 + (tau_s/D - w tau_s c_s,w / delta0) a' = q_s',
 //   D = m_n + |tau_s|.
@@ -42,8 +41,7 @@ struct RatePoint {
   T ratio;  ///< c_n / c_s
 };
 
-/// Coefficients of the rate equations at (tau_s, w). `direction`: where tau_s
-/// heads, used only at tau_s = 0.
+/// Coefficients of the rate equations at (tau_s, w). `direction`: where tau_s heads, used only at tau_s = 0.
 template <int NS, class T, class P>
 [[nodiscard]] FPZ_INLINE RatePoint<T, NS> rate_point(const CohesiveLaw<P>& law, const SeriesCompliance<P>& series,
                                                      const Branch& branch, const Vec<T, NS>& tau_s, const T& w,
@@ -110,8 +108,7 @@ template <class T, int NS>
   return f;
 }
 
-/// Jacobian d(f)/d(tau_s, a) of the rates f: J = -M^-1 (dM/dy . f) with the
-/// coefficient matrix M of the rate equations.
+/// Jacobian d(f)/d(tau_s, a) of the rates f: J = -M^-1 (dM/dy . f) with the coefficient matrix M of the rate equations.
 template <class T, int NS, class P>
 [[nodiscard]] Mat<T, NS + 1, NS + 1> rate_jacobian(const CohesiveLaw<P>& law, const RatePoint<T, NS>& r,
                                                    const Vec<T, NS>& tau_s, const Rates<T, NS>& f) {
@@ -172,9 +169,7 @@ template <int NS, class T, class P>
     cross += twist * twist;
   }
   // qa x^2 + 2 qb x + qc = 0. For qa < 0 the leading terms of the discriminant cancel and are left out; otherwise it is
-  // a
-  // sum of non-negative terms.
-
+  // a sum of non-negative terms.
   const T qa = dd - dl * dl;
   const T qb = sd - l * dl;
   T qc = ss + a * a - l * l;
@@ -184,7 +179,6 @@ template <int NS, class T, class P>
     disc = cross - a * a * qa;
     if constexpr (NS > 1) disc -= ss * dd - sd * sd;
   }
-
   if (value(disc) < 0.0) return T(-1.0);
   if (value(qb) > 0.0) return -qc / (qb + sqrt(disc));
   if (value(qa) <= 0.0) return T(-1.0);

@@ -1,9 +1,7 @@
-// The `accurate` integrator: elastic phases in closed form, yielding phases by
-// the adaptive Rosenbrock method RODAS of order 4(3) (Hairer & Wanner, Solving
-// Ordinary Differential Equations II, section IV.7; stiffly accurate and
-// L-stable) on the rate equations of rate.hpp. The yield condition and traction
-// continuity hold to rounding at every accepted step, because the ODE runs on
-// the yield surface itself.
+// The `accurate` integrator: elastic phases in closed form, yielding phases by the adaptive Rosenbrock method RODAS of
+// order 4(3) (Hairer & Wanner, Solving Ordinary Differential Equations II, section IV.7; stiffly accurate and L-stable)
+// on the rate equations of rate.hpp. The yield condition and traction continuity hold to rounding at every accepted
+// step, because the ODE runs on the yield surface itself.
 #pragma once
 
 #include "fpz/options.hpp"
@@ -12,8 +10,7 @@
 
 namespace fpz::detail {
 
-/// One yielding phase: state y = (tau_s, a) relative to the integrity at its
-/// begin, driven at constant rate.
+/// One yielding phase: state y = (tau_s, a) relative to the integrity at its begin, driven at constant rate.
 template <class T, int Dim, class P>
 class YieldingPhase {
  public:
@@ -34,21 +31,20 @@ class YieldingPhase {
   [[nodiscard]] T loading_at(const RatePoint<T, NS>& r) const { return loading(r, rate_n_, rate_s_); }
   [[nodiscard]] static Y pack(const Rates<T, NS>& f) {
     Y y;
-    y << f.tau_s, f.a;
+    y.template head<NS>() = f.tau_s;
+    y[NS] = f.a;
     return y;
   }
   [[nodiscard]] Y rates(const RatePoint<T, NS>& r) const { return pack(solve_rates(r, rate_n_, rate_s_)); }
   [[nodiscard]] const Shear& rate_s() const { return rate_s_; }
 
-  /// Dissipated energy per unit of the increment at a point with inelastic rate
-  /// a'.
+  /// Dissipated energy per unit of the increment at a point with inelastic rate a'.
   [[nodiscard]] T power(const RatePoint<T, NS>& r, const T& a_rate) const {
     return r.w * a_rate * dissipation_density(law_, r.hyp, r.shear, r.inv);
   }
 
-  /// One RODAS step of size h from y0, whose coefficients `r0` and rates `f0`
-  /// are given. Undefined where a stage meets h <= 0: the rate problem has no
-  /// unique solution there.
+  /// One RODAS step of size h from y0, whose coefficients `r0` and rates `f0` are given. Undefined where a stage meets
+  /// h <= 0: the rate problem has no unique solution there.
   [[nodiscard]] RodasStep<T, Dim> advance(const Y& y0, const RatePoint<T, NS>& r0, const Y& f0, const T& h) const {
     Rates<T, NS> f;
     f.tau_s = f0.template head<NS>();
@@ -82,8 +78,7 @@ class YieldingPhase {
     return std::max({std::sqrt(shear2) * weight, std::abs(normal) * weight, damage_error});
   }
 
-  /// Smooth functions that are positive while the branch holds: loading, sign
-  /// of tau_n, sign of the shear.
+  /// Smooth functions that are positive while the branch holds: loading, sign of tau_n, sign of the shear.
   static constexpr int event_count = 3;
   [[nodiscard]] T event(int which, const RatePoint<T, NS>& r) const {
     if (which == 0) return loading_at(r);
@@ -99,8 +94,7 @@ class YieldingPhase {
   Shear rate_s_;
 };
 
-/// Step length at which event `which` passes zero inside (0, h), and the
-/// derivative carried over to duals.
+/// Step length at which event `which` passes zero inside (0, h), and the derivative carried over to duals.
 template <class T, int Dim, class P>
 [[nodiscard]] T locate_event(const YieldingPhase<T, Dim, P>& phase, const Vec<T, Dim>& y0,
                              const RatePoint<T, Dim - 1>& r0, const Vec<T, Dim>& f0, double h, int which) {

@@ -1,15 +1,12 @@
-// Algorithm 1 (b): backward Euler stress return, with the traction continuity
-// of Algorithm 2 eliminated.
+// Algorithm 1 (b): backward Euler stress return, with the traction continuity of Algorithm 2 eliminated.
 //
-// In the local frame bulk and cohesive stiffness are diagonal, so u = d - b t
-// removes the jump, and with scaled tractions (yield.hpp) two scalar unknowns
-// remain, S = |tau_s| and a = d(kappa):
+// In the local frame bulk and cohesive stiffness are diagonal, so u = d - b t removes the jump, and with scaled
+// tractions (yield.hpp) two scalar unknowns remain, S = |tau_s| and a = d(kappa):
 //   r1 = q_n - c_n(w) tau_n(S) - a m_n/(m_n+S) = 0,   r2 = |q_s| - c_s(w) S - a
 //   S/(m_n+S) = 0,   w = w_old exp(-a/delta0).
-// Newton from the point of first yield takes 2-4 iterations. If it leaves the
-// domain, a bracketed solve takes over: r2 fixes S uniquely for every a, and
-// G(a) = r1(S(a), a) falls from G(0) > 0 to minus infinity, so a root always
-// exists (psi > 0).
+// Newton from the point of first yield takes 2-4 iterations. If it leaves the domain, a bracketed solve takes over: r2
+// fixes S uniquely for every a, and G(a) = r1(S(a), a) falls from G(0) > 0 to minus infinity, so a root always exists
+// (psi > 0).
 #pragma once
 
 #include <limits>
@@ -86,8 +83,7 @@ struct ReturnSolution {
   ReturnPoint<double> point;   ///< at (s, a)
 };
 
-/// S(a) from r2 = 0 by bracketed Newton; r2 falls strictly in S on [0,
-/// |q_s|/c_s].
+/// S(a) from r2 = 0 by bracketed Newton; r2 falls strictly in S on [0, |q_s|/c_s].
 inline double shear_at(const CohesiveLaw<double>& law, const SeriesCompliance<double>& series, double qn, double qs,
                        double w_old, double a, double guess, int& iterations) {
   double lo = 0.0;
@@ -145,8 +141,8 @@ inline ReturnSolution solve_bracketed(const CohesiveLaw<double>& law, const Seri
   return out;
 }
 
-/// The same system as return_system() multiplied by D = m_n + S and written in z, where S = A (z - 1/z)/2 and
-/// R = A (z + 1/z)/2 run over the hyperbola: one division per evaluation and no root, which halves its latency.
+/// The same system as return_system() multiplied by D = m_n + S and written in z, where S = A (z - 1/z)/2 and R = A (z
+/// + 1/z)/2 run over the hyperbola: one division per evaluation and no root, which halves its latency.
 struct FastSystem {
   double w, s, radius, normal, flow_n, sum, c_shear;
   double e1, e2, e1_z, e1_a, e2_z, e2_a;

@@ -1,7 +1,6 @@
-// Algorithm 1 (a) and the traction-continuity loop of Algorithm 2, as printed
-// with the slips repaired (model.md 2). Kept as the named baseline `paper`. It
-// has a small radius of convergence (model.md 3.5): failure is reported, never
-// returned as a result.
+// Algorithm 1 (a) and the traction-continuity loop of Algorithm 2, as printed with the slips repaired
+// (docs/equations.md). Kept as the named baseline `paper`. It has a small radius of convergence (docs/equations.md):
+// failure is reported, never returned as a result.
 #pragma once
 
 #include <Eigen/LU>
@@ -48,8 +47,7 @@ template <class T, int Dim, class P>
   return d;
 }
 
-/// Algorithm 1 on a jump increment `du`: traction, plastic jump, slip and
-/// integrity are updated in place.
+/// Algorithm 1 on a jump increment `du`: traction, plastic jump, slip and integrity are updated in place.
 template <class T, int Dim, class P>
 void paper_return(const CohesiveLaw<P>& law, CohesiveState<T, Dim>& z, const Vec<T, Dim>& du) {
   using std::sqrt;
@@ -78,8 +76,22 @@ void paper_return(const CohesiveLaw<P>& law, CohesiveState<T, Dim>& z, const Vec
   z.integrity -= dd;  // step 11
 }
 
-/// Diagonal-plus-rank-one tangent K^t of eq 67 at the current state, or the
-/// secant stiffness inside the yield surface.
+/// Whether a return ended where it should: on its yield surface to 1 % of sigma_t0 if it yielded, not outside if it did
+/// not, with an integrity in (0, 1] that did not grow. The printed algorithm checks none of these, and can end far from
+/// the surface or on the spurious branch of eq 48.
+template <class T, int Dim, class P>
+[[nodiscard]] bool paper_result_is_sound(const CohesiveLaw<P>& law, const CohesiveState<T, Dim>& begin,
+                                         const CohesiveState<T, Dim>& z) {
+  double ts2 = 0.0;
+  for (int k = 1; k < Dim; ++k) ts2 += value(z.traction[k]) * value(z.traction[k]);
+  const double w = value(z.integrity);
+  if (!(w > 0.0 && w <= value(begin.integrity))) return false;
+  const double f = yield_value(values(law), value(z.traction[0]), ts2, w);
+  const double band = 0.01 * value(law.tensile_strength);
+  return f <= band && (w == value(begin.integrity) || f >= -band);
+}
+
+/// Diagonal-plus-rank-one tangent K^t of eq 67 at the current state, or the secant stiffness inside the yield surface.
 template <class T, int Dim, class P>
 [[nodiscard]] Mat<T, Dim, Dim> paper_tangent(const CohesiveLaw<P>& law, const CohesiveState<T, Dim>& z) {
   const PaperDerivatives<T, Dim> d = paper_derivatives(law, z.traction, z.integrity);
@@ -94,9 +106,8 @@ template <class T, int Dim, class P>
   return kt;
 }
 
-/// Algorithm 2, lines 17-37, on the drive d0 -> d1 (traction of the uncracked
-/// bulk times the series compliance). With zero compliance the jump itself is
-/// driven and Algorithm 1 runs once.
+/// Algorithm 2, lines 17-37, on the drive d0 -> d1 (traction of the uncracked bulk times the series compliance). With
+/// zero compliance the jump itself is driven and Algorithm 1 runs once.
 template <class T, int Dim, class P>
 [[nodiscard]] Report integrate_paper(const CohesiveLaw<P>& law, const SeriesCompliance<P>& series,
                                      const Options& options, const CohesiveState<T, Dim>& begin, const Vec<T, Dim>& d0,
@@ -107,7 +118,7 @@ template <class T, int Dim, class P>
   CohesiveState<T, Dim> z = begin;
   if (value(series.normal) == 0.0) {
     paper_return(law, z, Vec<T, Dim>(d1 - d0));
-    if (!(value(z.integrity) > 0.0) || !std::isfinite(value(z.traction[0]))) {
+    if (!paper_result_is_sound(law, begin, z)) {
       report.status = Status::non_convergence;
       return report;
     }
@@ -143,8 +154,7 @@ template <class T, int Dim, class P>
     T ts2 = T(0.0);
     for (int k = 1; k < Dim; ++k) ts2 += z.traction[k] * z.traction[k];
     Mat<T, Dim, Dim> c = Mat<T, Dim, Dim>::Constant(T(0.0));
-    // Line 29: eq 67 holds while the point yields; inside the surface the
-    // tangent is the secant stiffness.
+    // Line 29: eq 67 holds while the point yields; inside the surface the tangent is the secant stiffness.
     const double inside = -1e-9 * value(law.cohesion) * value(law.cohesion);
     if (value(yield_paper(law, z.traction[0], ts2, z.integrity)) > inside * value(z.integrity) * value(z.integrity)) {
       c = paper_tangent(law, z);
@@ -154,6 +164,10 @@ template <class T, int Dim, class P>
     }
     for (int k = 0; k < Dim; ++k) c(k, k) += stiffness[k];
     paper_return(law, z, Vec<T, Dim>(c.inverse() * r));  // lines 30-34, eq 61
+  }
+  if (!paper_result_is_sound(law, begin, z)) {
+    report.status = Status::non_convergence;
+    return report;
   }
   end = z;
   return report;

@@ -1,8 +1,6 @@
-// RODAS: a linearly implicit Runge-Kutta (Rosenbrock) method of order 4 with an
-// embedded one of order 3, L-stable and stiffly accurate. Coefficients from
-// Hairer & Wanner, Solving Ordinary Differential Equations II (2nd ed.),
-// section IV.7. It needs one Jacobian and one small inverse per step and no
-// iteration, so a step cannot fail to converge.
+// RODAS: a linearly implicit Runge-Kutta (Rosenbrock) method of order 4 with an embedded one of order 3, L-stable and
+// stiffly accurate. Coefficients from Hairer & Wanner, Solving Ordinary Differential Equations II (2nd ed.), section
+// IV.7. It needs one Jacobian and one small inverse per step and no iteration, so a step cannot fail to converge.
 #pragma once
 
 #include <Eigen/LU>
@@ -37,8 +35,7 @@ struct RodasStep {
   Vec<T, N> error;  ///< difference to the embedded third-order solution
 };
 
-/// One step of size h for the autonomous system y' = f(y). `rates(y, f)` writes
-/// f and returns whether it exists.
+/// One step of size h for the autonomous system y' = f(y). `rates(y, f)` writes f and returns whether it exists.
 template <class T, int N, class F>
 [[nodiscard]] RodasStep<T, N> rodas_step(const Vec<T, N>& y0, const Vec<T, N>& f0, const Mat<T, N, N>& jacobian,
                                          const T& h, const F& rates) {

@@ -1,14 +1,12 @@
-// Scalars the library computes with: double, the forward-mode dual numbers
-// below, or any type that behaves like ceres::Jet (value member `a`). Branches
-// are always taken on value(x).
+// Scalars the library computes with: double, the forward-mode dual numbers below, or any type that behaves like
+// ceres::Jet (value member `a`). Branches are always taken on value(x).
 #pragma once
 
 #include <Eigen/Core>
 #include <cmath>
 #include <concepts>
 
-// For the few small functions of the inner loops: inlining them keeps their
-// many results in registers.
+// For the few small functions of the inner loops: inlining them keeps their many results in registers.
 #if defined(__GNUC__)
 #define FPZ_INLINE inline __attribute__((always_inline))
 #else
@@ -17,9 +15,8 @@
 
 namespace fpz {
 
-/// Value plus N directional derivatives, d(value)/d(seed_k) in grad[k]. Used to
-/// differentiate the discrete updates exactly, sub-stepping and events
-/// included.
+/// Value plus N directional derivatives, d(value)/d(seed_k) in grad[k]. Used to differentiate the discrete updates
+/// exactly, sub-stepping and events included.
 template <int N>
 struct Dual {
   double val = 0.0;

@@ -1,6 +1,5 @@
-// Softening: how inelastic displacement turns into damage (eq 47).
-// The library works with the integrity w = 1 - D, which stays exact when D is
-// within rounding of 1.
+// Softening: how inelastic displacement turns into damage (eq 47). The library works with the integrity w = 1 - D,
+// which stays exact when D is within rounding of 1.
 #pragma once
 
 #include <cmath>
@@ -9,8 +8,7 @@
 
 namespace fpz {
 
-/// Ratio w_end / w_begin after an inelastic displacement increment `kappa` =
-/// d(up_n) + d(up_s) >= 0 (m), eq 47.
+/// Ratio w_end / w_begin after an inelastic displacement increment `kappa` = d(up_n) + d(up_s) >= 0 (m), eq 47.
 template <class T, class P>
 [[nodiscard]] T integrity_ratio(const CohesiveLaw<P>& law, const T& kappa) {
   using std::exp;

@@ -1,6 +1,5 @@
-// Vectors, tensor components, settings and statuses shared by the whole
-// library. SI units; tension positive; shear strains are tensor components (not
-// engineering shears).
+// Vectors, tensor components, settings and statuses shared by the whole library. SI units; tension positive; shear
+// strains are tensor components (not engineering shears).
 #pragma once
 
 #include <Eigen/Core>
@@ -11,32 +10,28 @@
 
 namespace fpz {
 
-/// Stored vectors and matrices: unaligned, so that a state has one size
-/// whatever the compiler's flags are.
+/// Stored vectors and matrices: unaligned, so that a state has one size whatever the compiler's flags are.
 template <class T, int N>
 using Vec = Eigen::Matrix<T, N, 1, Eigen::DontAlign>;
 template <class T, int R, int C>
 using Mat = Eigen::Matrix<T, R, C, Eigen::DontAlign | (R == 1 && C != 1 ? Eigen::RowMajor : Eigen::ColMajor)>;
 
-/// Number of stored components of a symmetric tensor: 2-D (xx, yy, xy); 3-D
-/// (xx, yy, zz, xy, xz, yz).
+/// Number of stored components of a symmetric tensor: 2-D (xx, yy, xy); 3-D (xx, yy, zz, xy, xz, yz).
 template <int Dim>
 inline constexpr int tensor_size = Dim == 2 ? 3 : 6;
 
 template <class T, int Dim>
 using Tensor = Vec<T, tensor_size<Dim>>;
 
-/// Kinematic setting. Both plane settings use the 2-D types; the out-of-plane
-/// components are derived.
+/// Kinematic setting. Both plane settings use the 2-D types; the out-of-plane components are derived.
 enum class Setting : std::uint8_t { plane_strain, plane_stress, three_d };
 
-/// The outcome of an update. Anything but `ok` leaves the end state equal to
-/// the begin state.
+/// The outcome of an update. Anything but `ok` leaves the end state equal to the begin state.
 enum class Status : std::uint8_t {
   ok = 0,
   non_convergence,  ///< the integrator's iteration failed: take a smaller
                     ///< increment or another integrator
-  snap_back,        ///< no unique solution under strain control (model.md 3.6):
+  snap_back,        ///< no unique solution under strain control (docs/equations.md):
                     ///< smaller H or jump control
   no_plastic_flow,  ///< dilation angle 0 and pure opening: the flow rule (eq 50)
                     ///< has no direction to relax the traction
@@ -108,8 +103,7 @@ template <class T, int N>
   return true;
 }
 
-/// Component-wise conversion between scalar types (constants lifted to duals,
-/// or values taken from them).
+/// Component-wise conversion between scalar types (constants lifted to duals, or values taken from them).
 template <class To, class From, int R, int C, int O>
 [[nodiscard]] Eigen::Matrix<To, R, C, O> convert(const Eigen::Matrix<From, R, C, O>& a) {
   Eigen::Matrix<To, R, C, O> b;
