@@ -164,7 +164,7 @@ TEST(Onset, IsFoundInsideTheIncrement) {
                                            Setting::three_d);
 }
 
-/// model.md 3.2: eq 48 as printed is negative again far out in tension; the library must crack there all the same.
+/// Eq 48 as printed is negative again far out in tension; the library must crack there all the same.
 TEST(Onset, HugeIsotropicTensionCracksDespiteTheSpuriousBranch) {
   const Parameters p = table1(1e-3);
   const Material<double> m2 = make_material(p, Setting::plane_strain);

@@ -149,7 +149,7 @@ PathError paper_at(int n) {
   return compare<2>(four_stage(), paper_options(), std::vector<int>{12000 * n, 2000 * n, 300 * n, 1300 * n});
 }
 
-/// model.md 3.5: within 4e-4 of sigma_t0 at d eps_xx = 1.5e-7 and 0.75e-7.
+/// Within 4e-4 of sigma_t0 at d eps_xx = 1.5e-7 and 0.75e-7.
 TEST(Paper, FollowsTheReferenceAtHalfTheIncrementsOfThePaper) {
   for (const int n : {2, 4}) {
     const PathError e = paper_at(n);

@@ -197,6 +197,18 @@ template <int Dim, class T, class P>
   const bool crosses = tension ? end_n < 0.0 : end_n > 0.0;
   const T kink = crosses ? T(-q0[0] / dq[0]) : T(1.0);
   const T inverse_cs = 1.0 / (law.flexibility_s + w * series.shear);
+  // At the kink tau_n = 0, whatever the scale: this test has no rounding that w could magnify.
+  bool inside_at_kink = true;
+  if (crosses) {
+    double shear2 = 0.0;
+    for (int k = 1; k < Dim; ++k) {
+      const double tau = value(q0[k] + dq[k] * kink) * value(inverse_cs);
+      shear2 += tau * tau;
+    }
+    const double apex = value(law.apex);
+    const double cohesion = value(law.cohesion);
+    inside_at_kink = shear2 + apex * apex <= cohesion * cohesion;
+  }
   for (int piece = 0; piece < (crosses ? 2 : 1); ++piece, tension = !tension) {
     const T from = piece == 0 ? T(0.0) : kink;
     const T to = piece == 0 ? kink : T(1.0);
@@ -216,9 +228,11 @@ template <int Dim, class T, class P>
       const double s_end = value(s[k]) + length * value(ds[k]);
       outside += s_end * s_end;
     }
-    if (l_end > 0.0 && outside <= 0.0) continue;
+    const bool ends_at_kink = crosses && piece == 0;
+    if (ends_at_kink ? inside_at_kink : (l_end > 0.0 && outside <= 0.0)) continue;
     const T x = exit_fraction<NS>(law.tan_phi, c, a, n, s, dn, ds);
     if (value(x) >= 0.0 && value(x) <= length) return from + x;
+    if (ends_at_kink) return to;  // it does leave; rounding put the exit beyond the kink
   }
   return T(-1.0);
 }

@@ -147,6 +147,20 @@ struct FastSystem {
   double w, s, radius, normal, flow_n, sum, c_shear;
   double e1, e2, e1_z, e1_a, e2_z, e2_a;
   double modulus;  ///< positive where h > 0 (rate.hpp)
+  double s_z, r_z;
+
+  /// Moves the point by a step so small that second-order terms are below rounding.
+  void shift(const CohesiveLaw<double>& law, const SeriesCompliance<double>& series, double dz, double da) {
+    const double dw = integrity_slope(law, w) * da;
+    w += dw;
+    c_shear += series.shear * dw;
+    s += s_z * dz;
+    const double dr = r_z * dz;
+    radius += dr;
+    normal -= law.cot_phi * dr;
+    flow_n += law.flow_1 * dr;
+    sum = flow_n + s;
+  }
 };
 
 [[nodiscard]] FPZ_INLINE FastSystem fast_system(const CohesiveLaw<double>& law, const SeriesCompliance<double>& series,
@@ -163,8 +177,9 @@ struct FastSystem {
   const ScaledCompliance<double> c = scaled_compliance(law, series, e.w, e.normal >= 0.0);
   e.c_shear = c.shear;
   const double w_a = integrity_slope(law, e.w);
-  const double s_z = e.radius * zi;
-  const double r_z = e.s * zi;
+  const double s_z = e.s_z = e.radius * zi;
+  const double r_z = e.r_z = e.s * zi;
+
   const double sum_z = law.flow_1 * r_z + s_z;
   const double x = qn - c.normal * e.normal;
   const double y = qs - c.shear * e.s;
@@ -198,9 +213,9 @@ struct FastSystem {
   double z = (s_entry + std::sqrt(s_entry * s_entry + law.apex * law.apex)) * law.inverse_apex;
   double a = 0.0;
   double first = 0.0;
-  bool close = false;  // the last step was so small that this iterate is exact to rounding
+
   for (int k = 0; k < 12; ++k) {
-    const FastSystem e = fast_system(law, series, qn, qs, w_old, z, a);
+    FastSystem e = fast_system(law, series, qn, qs, w_old, z, a);
     ++out.iterations;
     if (k == 0) {
       out.entry_density = dissipation_density(law, point_of(e), s_entry);
@@ -211,18 +226,21 @@ struct FastSystem {
     }
     const double det = e.e1_z * e.e2_a - e.e1_a * e.e2_z;
     if (!(det < 0.0)) break;
-    if (close || (std::abs(e.e1) <= tolerance * e.sum && std::abs(e.e2) <= tolerance * e.sum)) {
+    const bool solved = std::abs(e.e1) <= tolerance * e.sum && std::abs(e.e2) <= tolerance * e.sum;
+    const double inverse = 1.0 / det;
+    const double dz = solved ? 0.0 : (e.e2 * e.e1_a - e.e1 * e.e2_a) * inverse;
+    const double da = solved ? 0.0 : (e.e1 * e.e2_z - e.e2 * e.e1_z) * inverse;
+    if (!(std::abs(dz) < 1e300 && std::abs(da) < 1e300)) break;
+    const double smallest = std::min(a, law.delta0);
+    if (solved || (std::abs(dz) <= 1e-8 * z && std::abs(da) <= 1e-8 * smallest && z + dz >= 1.0)) {
+      // Newton converges quadratically: after a step of 1e-8 the next one is below rounding.
       out.status = e.modulus > 0.0 ? Status::ok : Status::snap_back;
+      e.shift(law, series, qs == 0.0 ? 0.0 : dz, da);
       out.s = e.s;
-      out.a = a;
+      out.a = a + da;
       out.point = point_of(e);
       return out;
     }
-    const double inverse = 1.0 / det;
-    const double dz = (e.e2 * e.e1_a - e.e1 * e.e2_a) * inverse;
-    const double da = (e.e1 * e.e2_z - e.e2 * e.e1_z) * inverse;
-    if (!(std::abs(dz) < 1e300 && std::abs(da) < 1e300)) break;
-    close = std::abs(dz) <= 1e-9 * z && std::abs(da) <= 1e-9 * a;
     z = qs == 0.0 ? 1.0 : std::max(z + dz, 1.0);
     a = std::max(a + da, 0.0);
     if (k == 0) first = a;
