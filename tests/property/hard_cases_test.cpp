@@ -355,7 +355,8 @@ TEST(HardCases, ModeOneSnapBackLimit) {
   }
 }
 
-/// Fresh material sheared hard snaps back in shear although mode I would not (docs/equations.md); a long RVE must say so.
+/// Fresh material sheared hard snaps back in shear although mode I would not (docs/equations.md); a long RVE must say
+/// so.
 TEST(HardCases, ShearSnapBackIsDetected) {
   for (const Method method : robust) {
     for (const int steps : {2, 20, 2000}) {

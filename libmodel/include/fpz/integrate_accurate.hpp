@@ -52,7 +52,6 @@ template <class T, int Dim, class P>
                                            T fraction, const Options& options, Report& report) {
   constexpr int NS = Dim - 1;
   Yielded<T, Dim> out;
-
   const double tolerance = local_tolerance_fraction * options.tolerance;
   choose_branch(law, phase, y);
   RatePoint<T, NS> r = phase.point(y);
@@ -143,7 +142,12 @@ template <class T, int Dim, class P>
   T fraction = T(0.0);
   int stalled = 0;
   double skip = 1e-12;
-
+  const auto finish = [&] {
+    z.jump[0] = d1[0] - series.normal * z.traction[0];
+    for (int k = 1; k < Dim; ++k) z.jump[k] = d1[k] - series.shear * z.traction[k];
+    end = z;
+    return report;
+  };
   for (int phase_number = 0;; ++phase_number) {
     if (phase_number > 1000) {
       report.status = Status::non_convergence;
@@ -161,7 +165,6 @@ template <class T, int Dim, class P>
       fraction += skip;
       skip *= 8.0;
       stalled = 0;
-
       if (value(fraction) >= 1.0) break;
       continue;
     }
@@ -196,18 +199,10 @@ template <class T, int Dim, class P>
     z.dissipated += yielded.dissipated;
     z.traction[0] = r.w * r.hyp.normal;
     for (int k = 0; k < NS; ++k) z.traction[k + 1] = r.w * yielded.y[k];
-    if (!yielded.unloaded) {
-      z.jump[0] = d1[0] - series.normal * z.traction[0];
-      for (int k = 1; k < Dim; ++k) z.jump[k] = d1[k] - series.shear * z.traction[k];
-      end = z;
-      return report;
-    }
+    if (!yielded.unloaded) return finish();
   }
   z.traction = elastic_traction(law, series, z.integrity, Vec<T, Dim>(d1 + z.offset - z.plastic_jump));
-  z.jump[0] = d1[0] - series.normal * z.traction[0];
-  for (int k = 1; k < Dim; ++k) z.jump[k] = d1[k] - series.shear * z.traction[k];
-  end = z;
-  return report;
+  return finish();
 }
 
 }  // namespace fpz::detail
