@@ -158,8 +158,6 @@ void check_tangents(const std::vector<Point<Dim>>& points, const Options& option
       continue;
     }
     // The same arithmetic up to the order of operations; onset adds the conditioning of the eigenvectors.
-    // 1e-9, not rounding: at onset the derivatives of the principal directions divide by differences of principal
-    // stresses.
     EXPECT_LE((jet - tangent).cwiseAbs().maxCoeff(), 1e-9 * size);
     EXPECT_LE((fd.central - tangent).cwiseAbs().maxCoeff(), tolerance * size + 2.0 * fd.error.maxCoeff())
         << "differences\n"
