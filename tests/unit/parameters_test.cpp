@@ -7,6 +7,8 @@
 #include <limits>
 #include <string>
 
+#include "support/materials.hpp"
+
 namespace {
 
 using fpz::Parameters;
@@ -16,51 +18,10 @@ using fpz::Violation;
 
 constexpr double degree = 3.14159265358979323846 / 180.0;
 
-Parameters table1() {
-  Parameters p;
-  p.young_modulus = 0.4e9;
-  p.poisson_ratio = 0.25;
-  p.density = 1540.0;
-  p.tensile_strength = 0.6e6;
-  p.cohesion = 1.0e6;
-  p.friction_angle_deg = 33.0;
-  p.dilation_angle_deg = 4.0;
-  p.delta0 = 18e-6;
-  p.normal_stiffness = 1e13;
-  p.shear_stiffness = 1e11;
-  p.rve_length = 4e-3;
-  return p;
-}
-
-Parameters table2() {
-  Parameters p;
-  p.young_modulus = 45e9;
-  p.poisson_ratio = 0.24;
-  p.density = 2400.0;
-  p.tensile_strength = 2.9e6;
-  p.cohesion = 2.9e6;
-  p.friction_angle_deg = 37.0;
-  p.dilation_angle_deg = 5.0;
-  p.delta0 = 16.4e-6;
-  p.normal_stiffness = 1e14;
-  p.shear_stiffness = 1e11;
-  p.rve_length = 4e-3;
-  return p;
-}
-
-Parameters table3() {
-  Parameters p = table2();
-  p.young_modulus = 49e9;
-  p.poisson_ratio = 0.19;
-  p.density = 2700.0;
-  p.tensile_strength = 3.6e6;
-  p.cohesion = 10e6;
-  p.friction_angle_deg = 33.0;
-  p.dilation_angle_deg = 4.0;
-  p.delta0 = 8.5e-6;
-  p.rve_length = 0.5e-3;
-  return p;
-}
+// One RVE length for all tables.
+Parameters table1() { return fpz::test::table1(4e-3); }
+Parameters table2() { return fpz::test::table2(4e-3); }
+Parameters table3() { return fpz::test::table3(4e-3); }
 
 const Violation* find(const std::vector<Violation>& list, const std::string& field) {
   const auto it = std::find_if(list.begin(), list.end(), [&](const Violation& v) { return v.field == field; });
