@@ -3,14 +3,16 @@
 #pragma once
 
 #include <array>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "input_reader.hpp"
+#include "fpz/io/input_reader.hpp"
+#include "fpz/parameters.hpp"
 
-namespace fpz::driver::detail {
+namespace fpz::io {
 
 struct MaterialKey {
   std::string_view name;
@@ -49,11 +51,15 @@ struct Material {
 
 /// The material in a file, which messages call `shown_as`.
 [[nodiscard]] std::optional<Material> load_material(const std::filesystem::path& file, const std::string& shown_as,
-                                                    const Limits& limits, Problems& problems, std::string& error);
+                                                    const ReadLimits& limits, Problems& problems, std::string& error);
 
 /// Applies fpz::validate(). Errors become problems at the places of the values, warnings are returned. Without
 /// `rve_length` the constraints that do not need it are checked.
 std::vector<std::string> check_material(const Material& material, const Parameters& parameters, Setting setting,
                                         const std::optional<Location>& rve_length, Problems& problems);
 
-}  // namespace fpz::driver::detail
+/// Reads and validates a material file (keys as in data/materials). `rve_length` is left at 0. Without a key "name" the
+/// name is that of the file.
+[[nodiscard]] Parameters read_material_file(const std::filesystem::path& file, std::string* name = nullptr);
+
+}  // namespace fpz::io

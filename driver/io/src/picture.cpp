@@ -1,24 +1,12 @@
-#include "plotting.hpp"
-
-#include <gnuplot-iostream.h>
+#include "fpz/io/picture.hpp"
 
 #include <cmath>
-#include <csignal>
-#include <cstdio>
 #include <fstream>
-#include <stdexcept>
 
-namespace fpz::bench {
+#include "fpz/io/gnuplot.hpp"
+
+namespace fpz::io {
 namespace {
-
-std::string quoted(const std::string& text) {
-  std::string out = "'";
-  for (const char c : text) {
-    out += c;
-    if (c == '\'') out += c;
-  }
-  return out + "'";
-}
 
 constexpr const char* plain_axes =
     "set border 31 lw 1 lc rgb '#404040'\n"
@@ -48,14 +36,8 @@ void drop_empty_groups(const std::filesystem::path& file) {
 
 }  // namespace
 
-std::string number(double x) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.8g", x);
-  return text;
-}
-
-std::vector<Place> grid(int rows, int columns, Place all, double gap_x, double gap_y) {
-  std::vector<Place> places;
+std::vector<PanelPlace> grid(int rows, int columns, PanelPlace all, double gap_x, double gap_y) {
+  std::vector<PanelPlace> places;
   const double width = (all.right - all.left - gap_x * (columns - 1)) / columns;
   const double height = (all.top - all.bottom - gap_y * (rows - 1)) / rows;
   for (int r = 0; r < rows; ++r) {
@@ -68,9 +50,9 @@ std::vector<Place> grid(int rows, int columns, Place all, double gap_x, double g
   return places;
 }
 
-void Picture::place(const Place& at) {
-  command("set lmargin at screen " + number(at.left) + "; set rmargin at screen " + number(at.right) +
-          "; set bmargin at screen " + number(at.bottom) + "; set tmargin at screen " + number(at.top));
+void Picture::place(const PanelPlace& at) {
+  command("set lmargin at screen " + gnuplot_number(at.left) + "; set rmargin at screen " + gnuplot_number(at.right) +
+          "; set bmargin at screen " + gnuplot_number(at.bottom) + "; set tmargin at screen " + gnuplot_number(at.top));
 }
 
 void Picture::axes(const Panel& p) {
@@ -78,16 +60,17 @@ void Picture::axes(const Panel& p) {
     command(std::string(log ? "set" : "unset") + " logscale " + name);
     command(std::string("set format ") + name + (log ? " '10^{%L}'" : " '%g'"));
     command(std::string("set ") + name + "range [" +
-            (range.first < range.second ? number(range.first) + ":" + number(range.second) : "*:*") + "]");
+            (range.first < range.second ? gnuplot_number(range.first) + ":" + gnuplot_number(range.second) : "*:*") +
+            "]");
   };
   axis("x", p.log_x, p.x);
   axis("y", p.log_y, p.y);
-  command("set title " + quoted(p.title) + " offset 0,-0.4");
-  command("set xlabel " + quoted(p.x_label) + " offset 0,0.2");
-  command("set ylabel " + quoted(p.y_label) + " offset 0.6,0");
+  command("set title " + gnuplot_quoted(p.title) + " offset 0,-0.4");
+  command("set xlabel " + gnuplot_quoted(p.x_label) + " offset 0,0.2");
+  command("set ylabel " + gnuplot_quoted(p.y_label) + " offset 0.6,0");
 }
 
-void Picture::panel(const Panel& p, const Place& at) {
+void Picture::panel(const Panel& p, const PanelPlace& at) {
   place(at);
   command(plain_axes);
   axes(p);
@@ -98,28 +81,29 @@ void Picture::panel(const Panel& p, const Place& at) {
     if (s.points.empty()) continue;
     const std::string block = "$block" + std::to_string(blocks_++);
     command(block + " << END");
-    for (const auto& [x, y] : s.points) command(number(x) + " " + number(y));
+    for (const auto& [x, y] : s.points) command(gnuplot_number(x) + " " + gnuplot_number(y));
     command("END");
     plot += (plot.empty() ? "plot " : ", ") + block + " using 1:2 with " + s.style + " notitle";
   }
   if (!plot.empty()) command(plot);
 }
 
-void Picture::legend(const std::vector<Series>& series, const Place& at, int columns) {
+void Picture::legend(const std::vector<Series>& series, const PanelPlace& at, int columns) {
   place(at);
   command("unset logscale\nunset border\nunset tics\nunset grid\nunset xlabel\nunset ylabel\nunset title\nunset label");
-  command("unset arrow\nset xrange [0:1]\nset yrange [0:1]\nset key at screen " + number(0.5 * (at.left + at.right)) +
-          "," + number(0.5 * (at.bottom + at.top)) + " center center horizontal maxcols " + std::to_string(columns) +
+  command("unset arrow\nset xrange [0:1]\nset yrange [0:1]\nset key at screen " +
+          gnuplot_number(0.5 * (at.left + at.right)) + "," + gnuplot_number(0.5 * (at.bottom + at.top)) +
+          " center center horizontal maxcols " + std::to_string(columns) +
           " samplen 2.0 spacing 1.2 Left reverse font ',12'");
   std::string plot;
   for (const Series& s : series) {
     if (!s.title.empty())
-      plot += (plot.empty() ? "plot NaN with " : ", NaN with ") + s.style + " title " + quoted(s.title);
+      plot += (plot.empty() ? "plot NaN with " : ", NaN with ") + s.style + " title " + gnuplot_quoted(s.title);
   }
   command(plot);
 }
 
-void Picture::image(const Panel& p, const Place& at, int size, double low, double high,
+void Picture::image(const Panel& p, const PanelPlace& at, int size, double low, double high,
                     const std::vector<double>& cells, const std::string& background, const std::string& contours) {
   place(at);
   command(plain_axes);
@@ -130,13 +114,13 @@ void Picture::image(const Panel& p, const Place& at, int size, double low, doubl
   if (!p.before.empty()) command(p.before);
   const std::string block = "$block" + std::to_string(blocks_++);
   const std::string lines = "$block" + std::to_string(blocks_++);
-  const auto at_cell = [&](int k) { return number(low + (high - low) * k / (size - 1)); };
+  const auto at_cell = [&](int k) { return gnuplot_number(low + (high - low) * k / (size - 1)); };
   before_ += block + " << END\n";
   for (int j = 0; j < size; ++j) {
     for (int i = 0; i < size; ++i) {
       const double v = cells[static_cast<std::size_t>(j * size + i)];
-      before_ +=
-          at_cell(i) + " " + at_cell(j) + " " + (std::isnan(v) ? "9" : number(std::round(v * 1e4) * 1e-4)) + "\n";
+      before_ += at_cell(i) + " " + at_cell(j) + " " +
+                 (std::isnan(v) ? "9" : gnuplot_number(std::round(v * 1e4) * 1e-4)) + "\n";
     }
     before_ += "\n";
   }
@@ -147,7 +131,7 @@ void Picture::image(const Panel& p, const Place& at, int size, double low, doubl
   for (const Series& s : p.series) {
     const std::string data = "$block" + std::to_string(blocks_++);
     command(data + " << END");
-    for (const auto& [x, y] : s.points) command(number(x) + " " + number(y));
+    for (const auto& [x, y] : s.points) command(gnuplot_number(x) + " " + gnuplot_number(y));
     command("END");
     plot += ", " + data + " using 1:2 with " + s.style + " notitle";
   }
@@ -155,30 +139,23 @@ void Picture::image(const Panel& p, const Place& at, int size, double low, doubl
   command("unset object 1");
 }
 
-void Picture::write(const std::filesystem::path& folder) const {
-  const auto previous = std::signal(SIGPIPE, SIG_IGN);
-  for (const bool png : {true, false}) {
-    const std::filesystem::path file = folder / (name_ + (png ? ".png" : ".svg"));
-    std::error_code ignored;
-    std::filesystem::remove(file, ignored);
-    {
-      Gnuplot gp("gnuplot");
+std::vector<std::filesystem::path> Picture::files(const std::filesystem::path& folder) const {
+  return {folder / (name_ + ".png"), folder / (name_ + ".svg")};
+}
+
+void Picture::write(const std::filesystem::path& folder, bool force) const {
+  for (const std::filesystem::path& file : files(folder)) {
+    const bool png = file.extension() == ".png";
+    draw_with_gnuplot(file, force, [&](std::ostream& gp) {
       const double scale = png ? 1.2 : 1.0;
       gp << "set encoding utf8\nset terminal " << (png ? "pngcairo" : "svg dynamic")
          << " enhanced font 'DejaVu Sans,13' " << (png ? "fontscale 1.2 linewidth 1.2 pointscale 1.2 " : "") << "size "
-         << std::lround(scale * width_) << ',' << std::lround(scale * height_) << " background rgb 'white'\nset output "
-         << quoted(file.string()) << "\n"
+         << std::lround(scale * width_) << ',' << std::lround(scale * height_) << " background rgb 'white'\n"
          << before_ << "set multiplot\n"
-         << body_ << "unset multiplot\nunset output\n"
-         << std::flush;
-    }
+         << body_ << "unset multiplot\n";
+    });
     if (!png) drop_empty_groups(file);
-    if (!std::filesystem::exists(file) || std::filesystem::file_size(file) < 1000) {
-      std::signal(SIGPIPE, previous);
-      throw std::runtime_error(file.string() + ": gnuplot did not draw it (is gnuplot-nox installed?)");
-    }
   }
-  std::signal(SIGPIPE, previous);
 }
 
-}  // namespace fpz::bench
+}  // namespace fpz::io

@@ -7,18 +7,18 @@
 #include <string>
 #include <string_view>
 
-#include "json_locator.hpp"
-#include "problems.hpp"
+#include "fpz/io/json_locator.hpp"
+#include "fpz/io/problems.hpp"
 
-namespace fpz::driver::detail {
+namespace fpz::io {
 
 class InputReader {
  public:
-  InputReader(std::string file, const Limits& limits, Problems& problems)
+  InputReader(std::string file, const ReadLimits& limits, Problems& problems)
       : file_(std::move(file)), limits_(limits), problems_(problems) {}
 
   [[nodiscard]] const std::string& file() const { return file_; }
-  [[nodiscard]] const Limits& limits() const { return limits_; }
+  [[nodiscard]] const ReadLimits& limits() const { return limits_; }
   [[nodiscard]] Problems& problems() const { return problems_; }
 
   void problem(const Place& place, const std::string& text) const;
@@ -49,8 +49,8 @@ class InputReader {
 
  private:
   std::string file_;
-  const Limits& limits_;
+  const ReadLimits& limits_;
   Problems& problems_;
 };
 
-}  // namespace fpz::driver::detail
+}  // namespace fpz::io

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace fpz::driver {
+namespace fpz::io {
 
 struct Table {
   std::string origin;  ///< file name, for messages
@@ -26,4 +26,4 @@ struct Table {
 [[nodiscard]] Table read_csv(const std::filesystem::path& file);
 [[nodiscard]] Table parse_csv(std::string_view text, const std::string& origin);
 
-}  // namespace fpz::driver
+}  // namespace fpz::io

@@ -1,4 +1,4 @@
-#include "fpz/driver/output.hpp"
+#include "fpz/io/output.hpp"
 
 #include <unistd.h>
 
@@ -7,7 +7,7 @@
 #include <cstring>
 #include <system_error>
 
-namespace fpz::driver {
+namespace fpz::io {
 namespace fs = std::filesystem;
 namespace {
 
@@ -72,4 +72,4 @@ void write_text(const fs::path& file, std::string_view text, bool force) {
   replace_file(file, force, [&](const fs::path& temporary) { write_all(temporary, text); });
 }
 
-}  // namespace fpz::driver
+}  // namespace fpz::io

@@ -1,12 +1,12 @@
-#include "problems.hpp"
+#include "fpz/io/problems.hpp"
 
 #include <algorithm>
 #include <array>
 #include <charconv>
 
-#include "fpz/driver/path_file.hpp"
+#include "fpz/io/input_error.hpp"
 
-namespace fpz::driver::detail {
+namespace fpz::io {
 namespace {
 
 constexpr std::size_t max_shown = 80;
@@ -141,4 +141,4 @@ void Problems::fail() const {
   throw InputError(text);
 }
 
-}  // namespace fpz::driver::detail
+}  // namespace fpz::io

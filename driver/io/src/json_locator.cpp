@@ -1,4 +1,4 @@
-#include "json_locator.hpp"
+#include "fpz/io/json_locator.hpp"
 
 #include <algorithm>
 #include <cerrno>
@@ -10,7 +10,7 @@
 #include <system_error>
 #include <utility>
 
-namespace fpz::driver::detail {
+namespace fpz::io {
 namespace {
 
 using Json = nlohmann::json;
@@ -129,7 +129,7 @@ std::string plain_message(std::string_view message) {
 /// Builds the tree. Returning false from a callback ends the parse; the reason is a problem by then.
 class Handler {
  public:
-  Handler(std::string_view text, const std::size_t& taken, const std::string& file, const Limits& limits,
+  Handler(std::string_view text, const std::size_t& taken, const std::string& file, const ReadLimits& limits,
           Problems& problems)
       : text_(text), taken_(taken), file_(file), limits_(limits), problems_(problems) {}
 
@@ -269,7 +269,7 @@ class Handler {
   std::string_view text_;
   const std::size_t& taken_;
   const std::string& file_;
-  const Limits& limits_;
+  const ReadLimits& limits_;
   Problems& problems_;
   std::vector<JsonValue> open_;
   std::string key_;
@@ -314,7 +314,7 @@ std::string Place::path() const {
   return path + shown(value_->key);
 }
 
-bool parse_json(std::string_view text, const std::string& file, const Limits& limits, Problems& problems,
+bool parse_json(std::string_view text, const std::string& file, const ReadLimits& limits, Problems& problems,
                 JsonValue& root) {
   if (text.size() > limits.bytes) {
     problems.add(file, 0, "larger than " + std::to_string(limits.bytes) + " bytes");
@@ -334,7 +334,7 @@ bool parse_json(std::string_view text, const std::string& file, const Limits& li
   return true;
 }
 
-bool load_text(const std::filesystem::path& path, FileKind kind, const Limits& limits, std::string& text,
+bool load_text(const std::filesystem::path& path, FileKind kind, const ReadLimits& limits, std::string& text,
                std::string& error) {
   std::error_code code;
   const std::filesystem::file_status status = std::filesystem::status(path, code);
@@ -372,4 +372,4 @@ bool load_text(const std::filesystem::path& path, FileKind kind, const Limits& l
   return true;
 }
 
-}  // namespace fpz::driver::detail
+}  // namespace fpz::io

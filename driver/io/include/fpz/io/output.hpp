@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-namespace fpz::driver {
+namespace fpz::io {
 
 /// A file that could not be written: what() names it and says why.
 class OutputError : public std::runtime_error {
@@ -30,4 +30,4 @@ void replace_file(const std::filesystem::path& file, bool force,
 /// Writes text through replace_file. A full disk is noticed.
 void write_text(const std::filesystem::path& file, std::string_view text, bool force);
 
-}  // namespace fpz::driver
+}  // namespace fpz::io

@@ -3,14 +3,15 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "fpz/driver/path_file.hpp"
-#include "problems.hpp"
+#include "fpz/io/input_error.hpp"
+#include "fpz/io/problems.hpp"
 
-namespace fpz::driver::detail {
+namespace fpz::io {
 
 struct JsonValue {
   enum class Kind : unsigned char { null, boolean, number, string, array, object };
@@ -49,14 +50,14 @@ class Place {
 
 /// Parses strict JSON (RFC 8259: no comments, no NaN). Syntax errors, excesses of the limits, and duplicate keys become
 /// problems of `file`; false when there is no tree to look at.
-[[nodiscard]] bool parse_json(std::string_view text, const std::string& file, const Limits& limits, Problems& problems,
-                              JsonValue& root);
+[[nodiscard]] bool parse_json(std::string_view text, const std::string& file, const ReadLimits& limits,
+                              Problems& problems, JsonValue& root);
 
 enum class FileKind { regular, any };
 
 /// Reads a whole file. On failure (missing, a folder, larger than limits.bytes) false and the reason in `error`. A file
 /// that another file names must be a regular one: opening a pipe would wait for ever.
-[[nodiscard]] bool load_text(const std::filesystem::path& path, FileKind kind, const Limits& limits, std::string& text,
-                             std::string& error);
+[[nodiscard]] bool load_text(const std::filesystem::path& path, FileKind kind, const ReadLimits& limits,
+                             std::string& text, std::string& error);
 
-}  // namespace fpz::driver::detail
+}  // namespace fpz::io

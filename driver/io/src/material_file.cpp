@@ -1,8 +1,8 @@
-#include "material_file.hpp"
+#include "fpz/io/material_file.hpp"
 
 #include <algorithm>
 
-namespace fpz::driver::detail {
+namespace fpz::io {
 namespace {
 
 using Kind = JsonValue::Kind;
@@ -64,7 +64,7 @@ std::optional<Material> read_material(const InputReader& reader, const Place& pl
 }
 
 std::optional<Material> load_material(const std::filesystem::path& file, const std::string& shown_as,
-                                      const Limits& limits, Problems& problems, std::string& error) {
+                                      const ReadLimits& limits, Problems& problems, std::string& error) {
   std::string text;
   if (!load_text(file, FileKind::regular, limits, text, error)) return std::nullopt;
   JsonValue root;
@@ -93,4 +93,19 @@ std::vector<std::string> check_material(const Material& material, const Paramete
   return warnings;
 }
 
-}  // namespace fpz::driver::detail
+Parameters read_material_file(const std::filesystem::path& file, std::string* name) {
+  const ReadLimits limits;
+  Problems problems(limits.problems);
+  std::string error;
+  const auto material = load_material(file, file.string(), limits, problems, error);
+  if (!error.empty()) throw InputError(file.string() + ": cannot read material file: " + error);
+  problems.throw_if_any();
+  if (!material) throw InputError(file.string() + ": no material");
+  // The setting only moves the bound of rve_length, which a material file does not have.
+  (void)check_material(*material, material->parameters, Setting::plane_strain, std::nullopt, problems);
+  problems.throw_if_any();
+  if (name != nullptr) *name = material->name;
+  return material->parameters;
+}
+
+}  // namespace fpz::io

@@ -1,13 +1,13 @@
-#include "fpz/driver/csv.hpp"
+#include "fpz/io/csv.hpp"
 
 #include <charconv>
 #include <fstream>
 #include <limits>
 #include <sstream>
 
-#include "fpz/driver/path_file.hpp"
+#include "fpz/io/input_error.hpp"
 
-namespace fpz::driver {
+namespace fpz::io {
 namespace {
 
 std::string_view trim(std::string_view s) {
@@ -80,4 +80,4 @@ Table read_csv(const std::filesystem::path& file) {
   return parse_csv(text.str(), file.string());
 }
 
-}  // namespace fpz::driver
+}  // namespace fpz::io

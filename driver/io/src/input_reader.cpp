@@ -1,10 +1,10 @@
-#include "input_reader.hpp"
+#include "fpz/io/input_reader.hpp"
 
 #include <algorithm>
 #include <cctype>
 #include <cmath>
 
-namespace fpz::driver::detail {
+namespace fpz::io {
 namespace {
 
 using Kind = JsonValue::Kind;
@@ -121,4 +121,4 @@ std::optional<std::string> InputReader::text(const Place& place, std::size_t lon
   return std::nullopt;
 }
 
-}  // namespace fpz::driver::detail
+}  // namespace fpz::io

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace fpz::driver::detail {
+namespace fpz::io {
 
 /// Text from a file as it may be shown in a message: quoted, control characters escaped, shortened when long.
 [[nodiscard]] std::string in_quotes(std::string_view text);
@@ -54,4 +54,4 @@ class Problems {
   std::vector<Problem> list_;
 };
 
-}  // namespace fpz::driver::detail
+}  // namespace fpz::io
