@@ -10,11 +10,11 @@
 
 namespace fpz::calibration {
 
-using Model = std::function<Prediction(const Parameters&, bool derivatives)>;
+using ModelValues = std::function<Prediction(const Parameters&, bool derivatives)>;
 
 /// Compares each column k of the Jacobian, times p_k, with central differences of fourth order over relative steps
 /// `step` of p_k. Tolerances are relative to the largest entry of the same row (of values and of such products).
-inline void expect_derivatives(const Model& model, const Parameters& p, double step = 1e-3, double tolerance = 1e-7) {
+inline void expect_derivatives(const ModelValues& model, const Parameters& p, double step = 1e-3, double tolerance = 1e-7) {
   const Prediction plain = model(p, false);
   const Prediction full = model(p, true);
   ASSERT_TRUE(plain.ok()) << plain.failure;
