@@ -108,7 +108,8 @@ double delta0_of(const FractureEnergyTest& one, const Parameters& p, double ener
 std::string in_words(const FreedParameter& f, double energy_two) {
   const ParameterInfo& which = info(f.range.parameter);
   const std::string name(which.symbol);
-  const std::string unit = which.unit.empty() ? "" : " " + std::string(which.unit);
+  std::string unit;
+  if (!which.unit.empty()) unit.append(1, ' ').append(which.unit);
   const std::string range = number(f.range.lower) + " to " + number(f.range.upper) + unit;
   if (f.match.value) {
     return "Freeing " + name + ": " + name + " = " + number(*f.match.value) + unit +
