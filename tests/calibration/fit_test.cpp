@@ -43,6 +43,7 @@ TEST(Recovery, NoiseFreeDataGiveTheParametersBack) {
     EXPECT_LT(worst_relative(r.values, decay_truth()), 1e-9) << known;
     EXPECT_EQ(r.distinct_minima, 1);
     EXPECT_TRUE(r.standard_error.allFinite());
+    EXPECT_FALSE(mentions(r.warnings, "systematic"));
   }
 }
 

@@ -114,9 +114,9 @@ void report_starts(const FitProblem& problem, MultiStart runs, const Ranking& ra
     runs.starts[k].cost = end.cost;
   }
   if (failures > 0) {
-    result.warnings.push_back(
-        number(static_cast<double>(failures)) + " of " + number(static_cast<double>(runs.starts.size())) + " starts" +
-        (runs.minimum_of.front() < 0 ? ", the given one among them," : "") + " gave no prediction (" + reason + ")");
+    result.warnings.push_back(std::to_string(failures) + " of " + std::to_string(runs.starts.size()) + " starts" +
+                              (runs.minimum_of.front() < 0 ? ", the given one among them," : "") +
+                              " gave no prediction (" + reason + ")");
   }
   result.starts = std::move(runs.starts);
   result.distinct_minima = 1 + static_cast<int>(ranking.others.size());

@@ -132,13 +132,15 @@ void judge_scatter(const RowSet& set, double sum_of_squares, double redundancy, 
   }
 }
 
-void judge_order(const DataSetResult& r, FitResult& result) {
-  const double n = static_cast<double>(r.residuals.size());
+/// Warns of systematic residuals, but not of the rounding that remains of noise-free data.
+void judge_order(const RowSet& set, const DataSetResult& r, FitResult& result) {
+  const double n = static_cast<double>(set.size());
+  if (r.residuals.norm() < 1e-8 * set.measured.norm()) return;
   if (r.autocorrelation < std::max(0.3, 3.0 / std::sqrt(n))) return;
   result.warnings.push_back(
       "data set " + r.name + ": its residuals are systematic (neighbouring points are correlated by " +
-      number(r.autocorrelation) + "): the model departs from the data by more than noise, and its " + number(n) +
-      " points tell no more than about " + number(r.effective_points) +
+      number(r.autocorrelation) + "): the model departs from the data by more than noise, and its " +
+      std::to_string(set.size()) + " points tell no more than about " + number(r.effective_points) +
       " independent ones; use the correlated errors, not the standard errors");
 }
 
@@ -353,7 +355,7 @@ void add_statistics(const LeastSquares& problem, const Minimum& m, double confid
     DataSetResult r = data_set_result(set, m.evaluation.sets[k], lin.residual[k], redundancy);
     r.band = band(problem, lin, independent, k, confidence);
     factor[static_cast<Eigen::Index>(k)] = inflation(set, redundancy, r.effective_points);
-    judge_order(r, result);
+    judge_order(set, r, result);
     if (!set.estimated && set.loss.kind == LossKind::none) {
       judge_scatter(set, lin.residual[k].squaredNorm(), redundancy, result);
     }

@@ -126,6 +126,7 @@ enum class FitStatus {
   failed          ///< the forward models gave no prediction at the start
 };
 
+/// With FitStatus::failed only message, values (the start) and starts are filled.
 struct FitResult {
   FitStatus status = FitStatus::failed;
   std::string message;  ///< status in words, with the way out where there is one
@@ -138,9 +139,9 @@ struct FitResult {
   Eigen::VectorXd upper_limit;
   std::vector<int> at_lower_bound;
   std::vector<int> at_upper_bound;
-  Eigen::VectorXd gradient;     ///< d cost / d parameter; not zero only at bounds
-  Eigen::MatrixXd information;  ///< inverse covariance, with the parameters at bounds as if they were free
-  Eigen::VectorXd singular_values;
+  Eigen::VectorXd gradient;         ///< d cost / d parameter; not zero only at bounds
+  Eigen::MatrixXd information;      ///< inverse covariance, with the parameters at bounds as if they were free
+  Eigen::VectorXd singular_values;  ///< of the parameters that are not at bounds, largest first
   std::vector<UndeterminedDirection> undetermined;
   double cost = 0.0;
   double degrees_of_freedom = 0.0;        ///< values and priors less fitted parameters (with weights: expected chi^2)
