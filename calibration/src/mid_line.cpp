@@ -37,12 +37,18 @@ CohesiveState<Slope, 1> fresh_zone(const CohesiveLaw<P>& law) {
 
 const char* name(Gauge g) { return g == Gauge::cmod ? "CMOD" : "deflection"; }
 
-/// Zones from the start of a step to the given jump. False when the law has no answer.
+/// The zone at the given jump, by one step of the library's implicit integrator: in pure opening the law depends on the
+/// jump alone, and one step of any size is exact (cohesive_update would divide long ones, for nothing).
 template <class Slope, class P>
-[[nodiscard]] Status open_to(const CohesiveLaw<P>& law, const Options& options, const CohesiveState<Slope, 1>& begin,
-                             const Slope& jump, CohesiveState<Slope, 1>& end) {
-  const Vec<Slope, 1> change = Vec<Slope, 1>::Constant(jump - begin.jump[0]);
-  return cohesive_update(law, options, begin, change, end).status;
+[[nodiscard]] Status open_to(const CohesiveLaw<P>& law, const CohesiveState<Slope, 1>& begin, const Slope& jump,
+                             CohesiveState<Slope, 1>& end) {
+  if (!std::isfinite(value(jump))) return Status::invalid_input;
+  constexpr double any_loss = 1.0;
+  const SeriesCompliance<P> rigid{P(0.0), P(0.0)};
+  Report report;
+  const bool done = fpz::detail::implicit_step(law, rigid, any_loss, begin, begin.jump,
+                                               Vec<Slope, 1>(Vec<Slope, 1>::Constant(jump)), end, report);
+  return done ? report.status : Status::non_convergence;
 }
 
 }  // namespace
@@ -58,7 +64,6 @@ MidLine::MidLine(const Condensation& condensation, const Parameters& parameters,
       stiffness_(parameters.young_modulus * condensation.body.stiffness),
       reading_per_load_(condensation.body.gauge_load[static_cast<int>(control.gauge)] / parameters.young_modulus +
                         control.machine_compliance) {
-  options_.method = Method::implicit;  // exact in pure opening: the law there depends on the jump alone
   const Eigen::Index n = body_.area.size();
   now_.reading = control.offset;
   now_.load_rate = 1.0 / reading_per_load_;
@@ -143,7 +148,7 @@ bool MidLine::evaluate(const State& next, System& s) {
     const auto row = static_cast<Eigen::Index>(k);
     const CohesiveState<double, 1>& begin = now_.cracked[node] ? now_.zones[node] : fresh;
     CohesiveState<Tangent, 1> end;
-    law_status_ = open_to(law_, options_, lift<Tangent>(begin), Tangent::seed(s.jump[row], 0), end);
+    law_status_ = open_to(law_, lift<Tangent>(begin), Tangent::seed(s.jump[row], 0), end);
     if (law_status_ != Status::ok) return false;
     s.zones[k] = lift<double>(end);
     s.tangent[row] = end.traction[0].grad[0];
@@ -257,7 +262,7 @@ bool MidLine::differentiate(State& next, const System& s) {
   for (Eigen::Index k = 0; k < m; ++k) {
     const auto node = static_cast<std::size_t>(s.nodes[static_cast<std::size_t>(k)]);
     const SlopeZone begin = now_.cracked[node] ? now_.slopes[node] : fresh_zone<Slope>(slope_law_);
-    law_status_ = open_to(slope_law_, options_, begin, Slope::seed(s.jump[k], own_jump), next.slopes[node]);
+    law_status_ = open_to(slope_law_, begin, Slope::seed(s.jump[k], own_jump), next.slopes[node]);
     if (law_status_ != Status::ok) return false;
     const auto& slope = next.slopes[node].traction[0].grad;
     right.row(k) -= s.area[k] * slope.head<path_input_count>().transpose();

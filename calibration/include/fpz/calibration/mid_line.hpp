@@ -118,7 +118,6 @@ class MidLine {
   bool derivatives_;
   CohesiveLaw<double> law_;
   CohesiveLaw<Slope> slope_law_;
-  Options options_;
   Eigen::MatrixXd stiffness_;  ///< E times the condensed one, N/m
   double reading_per_load_;    ///< with the crack closed, m/N
   State now_;
