@@ -124,10 +124,7 @@ Picture curve_picture(const Calibration& all, const Comparison& c) {
     const std::vector<Point> middle = curve(set.abscissa, fx, c.predicted, fy);
     const std::string fill = std::string("filledcurves closed fs solid noborder fc rgb '") +
                              (fitted ? fit_band_colour : predicted_band_colour) + "'";
-    if (c.band.maxCoeff() > 0.0) {
-      series.push_back(
-          {level + (fitted ? " band of the fit" : " band of the prediction"), fill, outline(middle, c.band, fy)});
-    }
+    if (c.band.maxCoeff() > 0.0) series.push_back({level + " band", fill, outline(middle, c.band, fy)});
   }
   const Eigen::VectorXd& deviation = c.ok() ? c.deviation : set.deviation;
   if (set.measured.size() <= most_error_bars && (set.deviation_known || c.ok())) {
@@ -138,8 +135,7 @@ Picture curve_picture(const Calibration& all, const Comparison& c) {
     }
     series.push_back({"", lines("#9A9A9A", 1.0), segments(bars)});
   }
-  series.push_back(
-      {"measured, ± one standard deviation", points(data_colour, 7, 0.45), curve(set.abscissa, fx, set.measured, fy)});
+  series.push_back({"measured ± 1 s.d.", points(data_colour, 7, 0.45), curve(set.abscissa, fx, set.measured, fy)});
   if (c.ok()) {
     series.push_back({fitted ? "fit" : "prediction", lines(colour, 2.4), curve(set.abscissa, fx, c.predicted, fy)});
   }
@@ -178,7 +174,7 @@ Picture values_picture(const Calibration& all, const Comparison& c) {
   }
   const std::string level = digits(100.0 * all.specification.options.confidence) + " %";
   std::vector<Series> series = {{"", lines("#9A9A9A", 2.0), segments(bars)},
-                                {"measured, ± one standard deviation", points(data_colour, 7, 0.9), measured},
+                                {"measured ± 1 s.d.", points(data_colour, 7, 0.9), measured},
                                 {"", lines(colour, 2.0), segments(bands)},
                                 {std::string(set.role == Role::fit ? "fit" : "prediction") + ", " + level + " interval",
                                  points(colour, 5, 0.9), predicted}};
@@ -193,7 +189,7 @@ Picture values_picture(const Calibration& all, const Comparison& c) {
   panel.y = {0.4, static_cast<double>(n) + 0.6};
   const double bottom = 140.0 / height;
   picture.panel(panel, {0.3, 0.965, bottom, 1.0 - 45.0 / height});
-  picture.legend(series, {0.1, 0.97, 8.0 / height, 58.0 / height}, 1);
+  picture.legend(series, {0.1, 0.97, 8.0 / height, 58.0 / height}, 2);
   return picture;
 }
 
