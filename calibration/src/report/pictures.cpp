@@ -127,7 +127,8 @@ Picture curve_picture(const Calibration& all, const Comparison& c) {
     if (c.band.maxCoeff() > 0.0) series.push_back({level + " band", fill, outline(middle, c.band, fy)});
   }
   const Eigen::VectorXd& deviation = c.ok() ? c.deviation : set.deviation;
-  if (set.measured.size() <= most_error_bars && (set.deviation_known || c.ok())) {
+  const bool scatter = set.measured.size() <= most_error_bars && (set.deviation_known || (fitted && c.ok()));
+  if (scatter) {
     std::vector<std::pair<Point, Point>> bars;
     for (Eigen::Index k = 0; k < set.measured.size(); ++k) {
       const double x = set.abscissa[k] / fx;
@@ -135,7 +136,8 @@ Picture curve_picture(const Calibration& all, const Comparison& c) {
     }
     series.push_back({"", lines("#9A9A9A", 1.0), segments(bars)});
   }
-  series.push_back({"measured ± 1 s.d.", points(data_colour, 7, 0.45), curve(set.abscissa, fx, set.measured, fy)});
+  series.push_back({scatter ? "measured ± 1 s.d." : "measured", points(data_colour, 7, 0.45),
+                    curve(set.abscissa, fx, set.measured, fy)});
   if (c.ok()) {
     series.push_back({fitted ? "fit" : "prediction", lines(colour, 2.4), curve(set.abscissa, fx, c.predicted, fy)});
   }
@@ -144,10 +146,11 @@ Picture curve_picture(const Calibration& all, const Comparison& c) {
   panel.title = plain(set.name) + (fitted ? "" : ": not fitted, predicted");
   panel.x_label = axis_label(set.abscissa_axis);
   panel.y_label = axis_label(set.value_axis);
+  panel.before = "set ylabel offset -0.4,0";
   panel.series = series;
   panel.x = padded(series, false);
   panel.y = padded(series, true);
-  picture.panel(panel, {0.105, 0.975, 0.19, 0.92});
+  picture.panel(panel, {0.12, 0.975, 0.19, 0.92});
   picture.legend(series, {0.1, 0.97, 0.01, 0.07}, 3);
   return picture;
 }
