@@ -150,7 +150,7 @@ int main(int argc, char** argv) try {
   app.footer(
       "Examples:\n"
       "  fpz-calibrate data/calibration/table1.json -o out/table1\n"
-      "  fpz-calibrate data/calibration/gregoire_d50.json -o out/gregoire_d50\n"
+      "  fpz-calibrate data/calibration/gregoire_d50_modulus.json -o out/d50\n"
       "  fpz-calibrate my_rock.json --check\n"
       "  fpz-driver run PATH.json takes the resulting material.json as its \"material\".\n"
       "The specification is described in docs/calibration.md.\n"

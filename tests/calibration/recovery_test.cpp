@@ -212,6 +212,37 @@ TEST_F(Recovery, ModulusFromTheInitialSlope) {
   EXPECT_LT(s[Parameter::young_modulus].value, truth().young_modulus);
 }
 
+/// Jacobians of the assembled problem against differences: columns in their places, nuisances included.
+TEST_F(Recovery, JacobianOfTheAssembledProblem) {
+  csv({"cmod", "load"}, {line(6, 4e-6, 80e-6), Eigen::VectorXd::Constant(6, 1000.0)});
+  const std::string beam =
+      R"({"name": "b", "kind": "notched_beam", "file": "data.csv", "columns": {"cmod": "cmod", "load": "load"},
+          "geometry": {"unit": "mm", "depth": 50, "thickness": 50, "span": 125, "notch": 25},
+          "nuisance": {"cmod_offset": {"start": 0.5, "unit": "um", "lower": -2, "upper": 2}}})";
+  const std::string toughness =
+      R"({"name": "K", "kind": "fracture_energy", "mode": "I", "deviation": {"relative": 0.02}, "toughness": 1.5e6})";
+  const FitProblem problem = make_problem(
+      read(specification({"young_modulus", "poisson_ratio", "tensile_strength", "delta0"}, toughness + ", " + beam)));
+  ASSERT_EQ(problem.parameters.size(), 5u);
+  EXPECT_EQ(problem.parameters[4].name, "b.cmod_offset");
+  EXPECT_DOUBLE_EQ(problem.parameters[4].start, 0.5e-6);
+  Eigen::VectorXd x(5);
+  for (Eigen::Index k = 0; k < 5; ++k) x[k] = problem.parameters[static_cast<std::size_t>(k)].start;
+  for (const Observations& o : problem.data) {
+    const Prediction at = o.forward(x, true);
+    ASSERT_TRUE(at.ok()) << at.failure;
+    ASSERT_EQ(at.jacobian.cols(), 5);
+    for (Eigen::Index k = 0; k < 5; ++k) {
+      const double step = 1e-4 * x[k];
+      Eigen::VectorXd up = x, down = x;
+      up[k] += step;
+      down[k] -= step;
+      const Eigen::VectorXd slope = (o.forward(up, false).values - o.forward(down, false).values) / (2.0 * step);
+      EXPECT_LT((at.jacobian.col(k) - slope).norm() * x[k], 1e-5 * at.values.norm()) << o.name << " by " << k;
+    }
+  }
+}
+
 /// Independent standard normal numbers, the same on every platform.
 class Normal {
  public:

@@ -57,12 +57,14 @@ class MarkdownReport {
     } else {
       out_ << "**The fit is NOT usable (" << to_string(r_.status) << "); do not use its parameters.** ";
     }
-    out_ << r_.message << "\n\n";
+    out_ << "The solver says: " << r_.message << ".\n\n";
     if (!spec_.description.empty()) out_ << spec_.description << "\n\n";
     const auto fitted = [](const DataSet& d) { return d.role == Role::fit; };
-    out_ << "Fitted: " << all_.problem.parameters.size() << " unknowns to "
-         << std::count_if(spec_.data.begin(), spec_.data.end(), fitted) << " data sets, " << to_string(spec_.setting)
-         << ". Degrees of freedom: " << digits(r_.degrees_of_freedom)
+    const auto sets = std::count_if(spec_.data.begin(), spec_.data.end(), fitted);
+    const std::size_t unknowns = all_.problem.parameters.size();
+    out_ << "Fitted: " << unknowns << (unknowns == 1 ? " unknown to " : " unknowns to ") << sets
+         << (sets == 1 ? " data set, " : " data sets, ") << to_string(spec_.setting)
+         << ". Degrees of freedom: " << digits(std::round(1e6 * r_.degrees_of_freedom) * 1e-6)
          << ". SI units and numbers to full precision are in `report.json`.\n\n";
   }
 
