@@ -299,6 +299,15 @@ TEST_F(Recovery, CoverageOfTwoSetsWithKnownNoise) {
   EXPECT_GE(covered(read(specification(fitted, sets)), true), 90);
 }
 
+/// The strengths leave about four degrees of freedom for their noise, which the region has to know of.
+TEST_F(Recovery, CoverageOfTwoSetsWithEstimatedNoise) {
+  csv({"opening", "normal_traction"}, {line(12, 2e-6, 60e-6), Eigen::VectorXd::Constant(12, 1e6)});
+  std::vector<std::string> fitted = strengths;
+  fitted.emplace_back("delta0");
+  const std::string sets = strength_set(plausible_strengths()) + ", " + opening_set;
+  EXPECT_GE(covered(read(specification(fitted, sets)), false), 90);
+}
+
 TEST_F(Recovery, CoverageOfOneSetWithEstimatedNoise) {
   csv({"opening", "normal_traction"}, {line(12, 2e-6, 60e-6), Eigen::VectorXd::Constant(12, 1e6)});
   EXPECT_GE(covered(read(specification({"tensile_strength", "delta0"}, opening_set)), false), 90);

@@ -1,5 +1,6 @@
 #include "statistics.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
@@ -230,20 +231,35 @@ double freedom(const Certainty& c, const Eigen::VectorXd& g) {
 
 double region_freedom(const Certainty& c) {
   if (c.covariance.size() == 0) return infinity;
+  // Directions x = C^(1/2) v in which the sets with few degrees of freedom count most and least.
   const Eigen::VectorXd scale = c.covariance.diagonal().cwiseSqrt();
   const Eigen::VectorXd safe = (scale.array() > 0.0).select(scale.cwiseInverse(), 0.0);
-  // Each set's share in the parameters: trace of C^+ times its part of C, in equilibrated form.
-  const Eigen::MatrixXd equilibrated = safe.asDiagonal() * c.covariance * safe.asDiagonal();
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(equilibrated, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  double total = 0.0;
-  double sum = 0.0;
-  for (std::size_t k = 0; k < c.spread.size(); ++k) {
-    const Eigen::MatrixXd part = safe.asDiagonal() * c.spread[k] * safe.asDiagonal();
-    const double share = svd.solve(part).trace();
-    total += share;
-    sum += share * share / c.noise_freedom[static_cast<Eigen::Index>(k)];
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> equilibrated(safe.asDiagonal() * c.covariance *
+                                                                    safe.asDiagonal());
+  const double largest = equilibrated.eigenvalues().maxCoeff();
+  Eigen::VectorXd root = Eigen::VectorXd::Zero(scale.size());
+  for (Eigen::Index i = 0; i < root.size(); ++i) {
+    const double e = equilibrated.eigenvalues()[i];
+    if (e > negligible * negligible * largest) root[i] = 1.0 / std::sqrt(e);
   }
-  return sum > 0.0 ? total * total / sum : infinity;
+  const Eigen::MatrixXd whitening = safe.asDiagonal() * equilibrated.eigenvectors() * root.asDiagonal();
+  Eigen::MatrixXd uncertain = Eigen::MatrixXd::Zero(root.size(), root.size());
+  for (std::size_t k = 0; k < c.spread.size(); ++k) {
+    uncertain += whitening.transpose() * c.spread[k] * whitening / c.noise_freedom[static_cast<Eigen::Index>(k)];
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> directions(uncertain);
+  // Along each the squared deviation is F(1, nu); an F with the mean of their sum stands for it (Fai and Cornelius
+  // 1996).
+  double mean = 0.0;
+  double least = infinity;
+  for (Eigen::Index i = 0; i < root.size(); ++i) {
+    const double nu = freedom(c, whitening * directions.eigenvectors().col(i));
+    least = std::min(least, nu);
+    mean += std::isfinite(nu) ? nu / (nu - 2.0) : 1.0;
+  }
+  if (least <= 2.0) return std::max(1.0, least);
+  const double count = static_cast<double>(root.size());
+  return mean > count ? 2.0 * mean / (mean - count) : infinity;
 }
 
 double t_quantile(double confidence, double degrees_of_freedom) {
