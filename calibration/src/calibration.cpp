@@ -78,44 +78,110 @@ void measure(Comparison& c, const DataSet& set) {
   c.rms_over_peak = std::sqrt(c.residuals.squaredNorm() / static_cast<double>(c.residuals.size())) / c.measured_peak;
 }
 
-Comparison predict_unfitted(const DataSet& set, const Calibration& all, const std::vector<int>& fitted) {
-  Comparison c;
+/// Unknowns of each data set. Those of sets that are not fitted have no nuisances among them.
+std::vector<Unknowns> unknowns_of(const Specification& spec) {
+  std::vector<Unknowns> list;
+  Unknowns next;
+  next.material = fitted_parameters(spec);
+  next.first_nuisance = static_cast<Eigen::Index>(next.material.size());
+  for (const DataSet& set : spec.data) {
+    Unknowns which = next;
+    if (set.role == Role::fit) which.nuisances = static_cast<Eigen::Index>(set.nuisances.size());
+    next.first_nuisance += which.nuisances;
+    list.push_back(which);
+  }
+  return list;
+}
+
+/// The model of a data set as a function of all unknowns. Nuisances of a set that is not fitted keep their start
+/// values.
+Forward forward_of(const Specification& spec, const DataSet& set, const Model& model, const Unknowns& which) {
+  if (set.role == Role::fit) return make_forward(spec.start(), model, which);
   Eigen::VectorXd nuisance(static_cast<Eigen::Index>(set.nuisances.size()));
   for (std::size_t k = 0; k < set.nuisances.size(); ++k) {
     nuisance[static_cast<Eigen::Index>(k)] = set.nuisances[k].start;
   }
-  const auto count = static_cast<Eigen::Index>(fitted.size());
-  const bool certain = all.result.covariance.rows() >= count && all.result.covariance.allFinite();
-  const Prediction x = set.model(all.parameters, nuisance, certain);
+  const Model bound = [model, nuisance](const Parameters& p, const Eigen::VectorXd&, bool derivatives) {
+    return model(p, nuisance, derivatives);
+  };
+  return make_forward(spec.start(), bound, which);
+}
+
+/// The values of all unknowns that the comparisons are made with: the best ones, or the start where there are none.
+Eigen::VectorXd unknowns_for_comparison(const Calibration& all) {
+  const auto count = static_cast<Eigen::Index>(all.problem.parameters.size());
+  if (all.result.values.size() == count) return all.result.values;
+  Eigen::VectorXd start(count);
+  for (Eigen::Index k = 0; k < count; ++k) start[k] = all.problem.parameters[static_cast<std::size_t>(k)].start;
+  return start;
+}
+
+bool has_covariance(const Calibration& all) {
+  return all.result.covariance.rows() == static_cast<Eigen::Index>(all.problem.parameters.size()) &&
+         all.result.covariance.allFinite();
+}
+
+/// Half width of the confidence band of a prediction, allowing for correlated residuals: systematic ones would make the
+/// band of independent errors far too narrow. Zero when the fit gave no covariance.
+Eigen::VectorXd band_of(const Calibration& all, const Prediction& x) {
+  if (x.jacobian.size() == 0) return Eigen::VectorXd::Zero(x.values.size());
+  const FitResult& r = all.result;
+  const Eigen::VectorXd widened =
+      (r.standard_error.array() > 0.0).select(r.correlated_error.cwiseQuotient(r.standard_error), 1.0);
+  const Eigen::MatrixXd j = x.jacobian * widened.asDiagonal();
+  const Eigen::VectorXd variance = (j * r.covariance).cwiseProduct(j).rowwise().sum();
+  return interval_factor(all.result) * variance.cwiseMax(0.0).cwiseSqrt();
+}
+
+Comparison predict_unfitted(const DataSet& set, const Calibration& all, const Unknowns& which) {
+  Comparison c;
+  const Forward forward = forward_of(all.specification, set, set.model, which);
+  const Prediction x = forward(unknowns_for_comparison(all), has_covariance(all));
   c.failure = x.failure;
   if (!x.ok()) return c;
   c.predicted = x.values;
   c.deviation = set.deviation;
-  c.band = Eigen::VectorXd::Zero(x.values.size());
-  if (certain) {
-    const Eigen::MatrixXd j = x.jacobian(Eigen::all, fitted);
-    const Eigen::MatrixXd covariance = all.result.covariance.topLeftCorner(count, count);
-    const Eigen::VectorXd variance = (j * covariance).cwiseProduct(j).rowwise().sum();
-    c.band = interval_factor(all.result) * variance.cwiseMax(0.0).cwiseSqrt();
-  }
+  c.band = band_of(all, x);
   measure(c, set);
   return c;
 }
 
-std::vector<Comparison> compare_all(const Calibration& all, const std::vector<int>& fitted) {
+/// The measured abscissae and others between them, evenly spread; nothing where the measured ones go back and forth.
+std::optional<Eigen::VectorXd> dense_abscissa(const Eigen::VectorXd& measured) {
+  constexpr Eigen::Index more = 160;
+  if (measured.size() < 2 || !std::is_sorted(measured.begin(), measured.end())) return std::nullopt;
+  Eigen::VectorXd x(measured.size() + more);
+  x << measured, Eigen::VectorXd::LinSpaced(more, measured[0], measured[measured.size() - 1]);
+  std::sort(x.begin(), x.end());
+  return x;
+}
+
+std::optional<SmoothCurve> smooth_curve(const DataSet& set, const Calibration& all, const Unknowns& which) {
+  if (!set.model_at || !set.is_curve()) return std::nullopt;
+  const std::optional<Eigen::VectorXd> abscissa = dense_abscissa(set.abscissa);
+  if (!abscissa) return std::nullopt;
+  const Forward forward = forward_of(all.specification, set, set.model_at(*abscissa), which);
+  const Prediction x = forward(unknowns_for_comparison(all), has_covariance(all));
+  if (!x.ok()) return std::nullopt;
+  return SmoothCurve{*abscissa, x.values, band_of(all, x)};
+}
+
+std::vector<Comparison> compare_all(const Calibration& all) {
+  const std::vector<Unknowns> unknowns = unknowns_of(all.specification);
   std::vector<Comparison> list;
   std::size_t next = 0;  // of the results, which follow the fitted sets
   for (std::size_t k = 0; k < all.specification.data.size(); ++k) {
     const DataSet& set = all.specification.data[k];
     Comparison c;
     if (set.role == Role::predict) {
-      c = predict_unfitted(set, all, fitted);
+      c = predict_unfitted(set, all, unknowns[k]);
     } else if (next < all.result.data.size()) {
       const DataSetResult& r = all.result.data[next++];
       if (r.predicted.size() == set.measured.size()) {
         c.predicted = r.predicted;
         c.deviation = r.deviation;
-        c.band = r.band;
+        const Prediction x = all.problem.data[next - 1].forward(all.result.values, has_covariance(all));
+        c.band = x.ok() ? band_of(all, x) : r.band;
         measure(c, set);
       } else {
         c.failure = "the fit gave no prediction";
@@ -124,6 +190,7 @@ std::vector<Comparison> compare_all(const Calibration& all, const std::vector<in
       c.failure = "the fit gave no prediction";
     }
     c.data_set = k;
+    if (c.ok()) c.smooth = smooth_curve(set, all, unknowns[k]);
     list.push_back(std::move(c));
   }
   return list;
@@ -216,14 +283,11 @@ void add_warnings(Calibration& all) {
 
 FitProblem make_problem(const Specification& spec) {
   FitProblem problem;
-  const std::vector<int> fitted = fitted_parameters(spec);
-  for (const int k : fitted) problem.parameters.push_back(make_parameter(spec, k));
-  for (const DataSet& set : spec.data) {
+  for (const int k : fitted_parameters(spec)) problem.parameters.push_back(make_parameter(spec, k));
+  const std::vector<Unknowns> unknowns = unknowns_of(spec);
+  for (std::size_t k = 0; k < spec.data.size(); ++k) {
+    const DataSet& set = spec.data[k];
     if (set.role != Role::fit) continue;
-    Unknowns which;
-    which.material = fitted;
-    which.first_nuisance = static_cast<Eigen::Index>(problem.parameters.size());
-    which.nuisances = static_cast<Eigen::Index>(set.nuisances.size());
     problem.parameters.insert(problem.parameters.end(), set.nuisances.begin(), set.nuisances.end());
     Observations o;
     o.name = set.name;
@@ -232,7 +296,7 @@ FitProblem make_problem(const Specification& spec) {
     o.deviation_known = set.deviation_known;
     o.weight = set.weight;
     o.loss = set.loss;
-    o.forward = make_forward(spec.start(), set.model, which);
+    o.forward = forward_of(spec, set, set.model, unknowns[k]);
     problem.data.push_back(std::move(o));
   }
   return problem;
@@ -263,7 +327,7 @@ Calibration calibrate(const Specification& spec, const std::function<void(const 
   const bool any = all.result.values.size() == static_cast<Eigen::Index>(all.problem.parameters.size());
   all.parameters = any ? parameters_at(spec, all.result.values) : spec.start();
   const std::vector<int> fitted = fitted_parameters(spec);
-  all.comparisons = compare_all(all, fitted);
+  all.comparisons = compare_all(all);
   all.derived = derive(all, fitted);
   for (const ReferenceValue& r : spec.references) {
     for (const ParameterInfo& p : parameter_info) {

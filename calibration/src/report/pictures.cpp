@@ -73,6 +73,13 @@ std::vector<Point> curve(const Eigen::VectorXd& x, double x_factor, const Eigen:
   return list;
 }
 
+/// What the model predicts, with points of its own between the measured ones where it has them.
+std::vector<Point> predicted_curve(const DataSet& set, const Comparison& c) {
+  const Eigen::VectorXd& x = c.smooth ? c.smooth->abscissa : set.abscissa;
+  const Eigen::VectorXd& y = c.smooth ? c.smooth->predicted : c.predicted;
+  return curve(x, set.abscissa_axis.factor, y, set.value_axis.factor);
+}
+
 /// The outline of the band: there on its upper side, back on the lower one.
 std::vector<Point> outline(const std::vector<Point>& middle, const Eigen::VectorXd& half_width, double factor) {
   std::vector<Point> list;
@@ -121,10 +128,11 @@ Picture curve_picture(const Calibration& all, const Comparison& c) {
   const std::string level = digits(100.0 * all.specification.options.confidence) + " %";
   std::vector<Series> series;
   if (c.ok()) {
-    const std::vector<Point> middle = curve(set.abscissa, fx, c.predicted, fy);
+    const std::vector<Point> middle = predicted_curve(set, c);
+    const Eigen::VectorXd& band = c.smooth ? c.smooth->band : c.band;
     const std::string fill = std::string("filledcurves closed fs solid noborder fc rgb '") +
                              (fitted ? fit_band_colour : predicted_band_colour) + "'";
-    if (c.band.maxCoeff() > 0.0) series.push_back({level + " band", fill, outline(middle, c.band, fy)});
+    if (band.maxCoeff() > 0.0) series.push_back({level + " band", fill, outline(middle, band, fy)});
   }
   const Eigen::VectorXd& deviation = c.ok() ? c.deviation : set.deviation;
   const bool scatter = set.measured.size() <= most_error_bars && (set.deviation_known || (fitted && c.ok()));
@@ -139,7 +147,7 @@ Picture curve_picture(const Calibration& all, const Comparison& c) {
   series.push_back({scatter ? "measured ± 1 s.d." : "measured", points(data_colour, 7, 0.45),
                     curve(set.abscissa, fx, set.measured, fy)});
   if (c.ok()) {
-    series.push_back({fitted ? "fit" : "prediction", lines(colour, 2.4), curve(set.abscissa, fx, c.predicted, fy)});
+    series.push_back({fitted ? "fit" : "prediction", lines(colour, 2.4), predicted_curve(set, c)});
   }
   Picture picture(data_picture_name(set), 860, 580);
   Panel panel;

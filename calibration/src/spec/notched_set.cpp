@@ -220,7 +220,12 @@ void read_notched(const SetContext& s, const Place& set, SpecimenShape shape, Da
   out.abscissa_axis = readable_axis(gauge_labels[*which], Quantity::length, out.abscissa.maxCoeff());
   out.value_axis = readable_axis("Load", Quantity::force, largest);
   out.is_notched = true;
-  out.model = make_model(test, std::move(places));
+  out.model = make_model(test, places);
+  out.model_at = [test, places](const Eigen::VectorXd& readings) {
+    NotchedSpecimenTest other = test;
+    other.readings = readings;
+    return make_model(other, places);
+  };
   out.initial_modulus = [test, part, load = out.measured](const Parameters& p) {
     ModulusEstimate e;
     try {

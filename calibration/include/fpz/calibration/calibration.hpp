@@ -23,14 +23,22 @@ namespace fpz::calibration {
 /// All material parameters when the unknowns of make_problem() have these values; rve_length is 0.
 [[nodiscard]] Parameters parameters_at(const Specification& specification, const Eigen::VectorXd& unknowns);
 
+/// A prediction between the measured points.
+struct SmoothCurve {
+  Eigen::VectorXd abscissa;
+  Eigen::VectorXd predicted;
+  Eigen::VectorXd band;  ///< half width of the confidence band
+};
+
 /// How the fitted material does on one data set, whether that was fitted or not.
 struct Comparison {
-  std::size_t data_set = 0;    ///< index in Specification::data
-  Eigen::VectorXd predicted;   ///< SI
-  Eigen::VectorXd residuals;   ///< predicted - measured
-  Eigen::VectorXd deviation;   ///< standard deviation of the single values, estimated where it was not known
-  Eigen::VectorXd band;        ///< half width of the confidence band of the prediction
-  double measured_peak = 0.0;  ///< largest measured value
+  std::size_t data_set = 0;           ///< index in Specification::data
+  Eigen::VectorXd predicted;          ///< SI
+  Eigen::VectorXd residuals;          ///< predicted - measured
+  Eigen::VectorXd deviation;          ///< standard deviation of the single values, estimated where it was not known
+  Eigen::VectorXd band;               ///< half width of the confidence band of the prediction
+  std::optional<SmoothCurve> smooth;  ///< where the kind of test allows it
+  double measured_peak = 0.0;         ///< largest measured value
   double predicted_peak = 0.0;
   double peak_error = 0.0;     ///< relative
   double rms_over_peak = 0.0;  ///< root mean square of the residuals over the largest measured value

@@ -57,6 +57,8 @@ struct DataSet {
 
   std::vector<FitParameter> nuisances;
   Model model;
+  /// The same test at other abscissae, in growing order, for drawing; empty where the kind has none.
+  std::function<Model(const Eigen::VectorXd& abscissa)> model_at;
 
   std::optional<FractureEnergyTest> fracture_energy;
   std::optional<double> energy;                                       ///< measured with it, J/m^2
