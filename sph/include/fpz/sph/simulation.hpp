@@ -1,0 +1,84 @@
+// A run of the particle method: construct, step, look. Sections 2 and 5 of the paper.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "fpz/sph/arrangement.hpp"
+#include "fpz/sph/energy.hpp"
+#include "fpz/sph/group.hpp"
+#include "fpz/sph/options.hpp"
+#include "fpz/sph/outcome.hpp"
+#include "fpz/sph/particles.hpp"
+
+namespace fpz::sph {
+
+namespace detail {
+template <int Dim>
+struct Engine;
+}
+
+/// Everything that defines a run.
+template <int Dim>
+struct Setup {
+  Arrangement<Dim> arrangement;
+  std::vector<Group<Dim>> groups;
+  Parameters parameters;  ///< rve_length is ignored: options.rve_length decides
+  Setting setting = Setting::plane_strain;
+  Options<Dim> options;
+  std::vector<Vec<double, Dim>> velocity;  ///< at the start, per particle, m/s; empty: at rest
+};
+
+/// What is wrong with a setup, one message per problem with the field's name; empty when it can run.
+template <int Dim>
+[[nodiscard]] std::vector<std::string> problems(const Setup<Dim>& setup);
+
+/// The time step that eq 32 gives, s: courant * h/sqrt(E/rho), times sqrt(mass_scale).
+template <int Dim>
+[[nodiscard]] double time_step(const Setup<Dim>& setup);
+
+/// One run. Particles interact with all others of the arrangement, boundary groups included. The result does not depend
+/// on the number of threads or on the instruction set.
+template <int Dim>
+class Simulation {
+ public:
+  /// Throws std::invalid_argument with all problems().
+  explicit Simulation(const Setup<Dim>& setup);
+  ~Simulation();
+  Simulation(Simulation&&) noexcept;
+  Simulation& operator=(Simulation&&) noexcept;
+
+  /// Advances by one time step. After a failure the state is the broken one, for inspection.
+  [[nodiscard]] Outcome step();
+
+  [[nodiscard]] double time() const;       ///< s
+  [[nodiscard]] double time_step() const;  ///< s
+  [[nodiscard]] long long steps() const;
+  [[nodiscard]] const Particles<Dim>& particles() const;
+  /// Slot of a particle of the arrangement in the arrays of particles().
+  [[nodiscard]] std::size_t slot(std::size_t id) const;
+  /// Force that keeps a group on its motion, N (per metre of thickness in 2-D), from the momentum balance of its
+  /// particles at the last full step; zero in free components.
+  [[nodiscard]] Vec<double, Dim> reaction(std::size_t group) const;
+  /// Sums over all particles, in a fixed order.
+  [[nodiscard]] Energies energies() const;
+  [[nodiscard]] std::size_t cracked() const;
+  [[nodiscard]] long long released_bonds() const;
+  [[nodiscard]] long long neighbour_builds() const;
+  /// Real neighbours per particle, on average.
+  [[nodiscard]] double mean_neighbours() const;
+
+  /// The complete state as bytes; restore() continues bit for bit. Throws std::runtime_error when the bytes are damaged
+  /// or belong to another setup.
+  [[nodiscard]] std::vector<unsigned char> snapshot() const;
+  void restore(std::span<const unsigned char> bytes);
+
+ private:
+  detail::Engine<Dim>* engine_;
+};
+
+extern template class Simulation<2>;
+
+}  // namespace fpz::sph

@@ -1,0 +1,137 @@
+#include "fpz/sph/simulation.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "engine.hpp"
+
+namespace fpz::sph {
+
+template <int Dim>
+double time_step(const Setup<Dim>& s) {
+  const double sound = std::sqrt(s.parameters.young_modulus / s.parameters.density);
+  return s.options.courant * s.options.smoothing_ratio * s.arrangement.spacing / sound *
+         std::sqrt(s.options.mass_scale);
+}
+
+namespace {
+
+template <int Dim>
+const Setup<Dim>& checked(const Setup<Dim>& setup) {
+  const std::vector<std::string> all = problems(setup);
+  if (all.empty()) return setup;
+  std::string text;
+  for (const std::string& s : all) text += (text.empty() ? "" : "\n") + s;
+  throw std::invalid_argument(text);
+}
+
+}  // namespace
+
+template <int Dim>
+Simulation<Dim>::Simulation(const Setup<Dim>& setup) : engine_(new detail::Engine<Dim>(checked(setup))) {}
+template <int Dim>
+Simulation<Dim>::~Simulation() {
+  delete engine_;
+}
+template <int Dim>
+Simulation<Dim>::Simulation(Simulation&& other) noexcept : engine_(other.engine_) {
+  other.engine_ = nullptr;
+}
+template <int Dim>
+Simulation<Dim>& Simulation<Dim>::operator=(Simulation&& other) noexcept {
+  std::swap(engine_, other.engine_);
+  return *this;
+}
+
+template <int Dim>
+Outcome Simulation<Dim>::step() {
+  return engine_->step();
+}
+template <int Dim>
+double Simulation<Dim>::time() const {
+  return engine_->now();
+}
+template <int Dim>
+double Simulation<Dim>::time_step() const {
+  return engine_->dt;
+}
+template <int Dim>
+long long Simulation<Dim>::steps() const {
+  return engine_->steps;
+}
+template <int Dim>
+const Particles<Dim>& Simulation<Dim>::particles() const {
+  return engine_->particles;
+}
+template <int Dim>
+std::size_t Simulation<Dim>::slot(std::size_t id) const {
+  return engine_->slot_of.at(id);
+}
+template <int Dim>
+Vec<double, Dim> Simulation<Dim>::reaction(std::size_t group) const {
+  return engine_->reaction.at(group);
+}
+template <int Dim>
+long long Simulation<Dim>::released_bonds() const {
+  return engine_->released;
+}
+template <int Dim>
+long long Simulation<Dim>::neighbour_builds() const {
+  return engine_->builds;
+}
+
+template <int Dim>
+std::size_t Simulation<Dim>::cracked() const {
+  std::size_t n = 0;
+  for (const double k : engine_->particles.kind) n += k == kind::cracked ? 1 : 0;
+  return n;
+}
+
+template <int Dim>
+double Simulation<Dim>::mean_neighbours() const {
+  std::size_t n = 0;
+  for (const std::vector<int>& list : engine_->lists) n += list.size();
+  return static_cast<double>(n) / static_cast<double>(engine_->particles.count);
+}
+
+template <int Dim>
+Energies Simulation<Dim>::energies() const {
+  const detail::Engine<Dim>& e = *engine_;
+  const Particles<Dim>& p = e.particles;
+  Energies sum;
+  sum.kinetic_start = e.kinetic_start;
+  sum.external = e.prescribed_work;
+  if (!e.started) sum.kinetic = e.kinetic_start;
+  Material<double> m = e.material;
+  for (std::size_t i = 0; i < p.count; ++i) {
+    const double volume = p.volume[i];
+    State<double, Dim> point;
+    if (p.kind[i] == kind::cracked) {
+      set_rve_length(m, p.length[i]);
+      sum.elastic += volume * stored_energy(m, p.point[i]);
+      sum.fracture += volume * dissipated_energy(m, p.point[i]);
+    } else {
+      const Tensor<double, Dim> s = p.stress_of(i);
+      const double trace = s.template head<Dim>().sum();
+      const double lambda = m.bulk.lambda;
+      const double mu = m.bulk.mu;
+      sum.elastic +=
+          volume * 0.25 / mu * (double_dot<Dim>(s, s) - lambda / (Dim * lambda + 2.0 * mu) * trace * trace);
+    }
+    for (std::size_t c = 0; c < p.start.size(); ++c) {
+      const double after = p.velocity[c][i];
+      if (e.started) sum.kinetic += 0.5 * p.mass[i] * after * (after - e.dt * p.acceleration[c][i]);
+      sum.external += p.mass[i] * e.view.weight_scale * e.setup.options.gravity[static_cast<int>(c)] *
+                      (p.position[c][i] - p.start[c][i]);
+    }
+  }
+  for (const double w : e.viscous_work) sum.viscous += w;
+  for (const double w : e.damping_work) sum.damping += w;
+  for (const double w : e.artificial_work) sum.artificial += w;
+  return sum;
+}
+
+template double time_step<2>(const Setup<2>&);
+template class Simulation<2>;
+
+}  // namespace fpz::sph
