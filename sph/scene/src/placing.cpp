@@ -17,13 +17,6 @@ void share_area(Arrangement<2>& a, const Body& body) {
   std::fill(a.volume.begin(), a.volume.end(), area(body) / static_cast<double>(a.size()));
 }
 
-/// Distance of x from the centre line of a notch.
-double distance(const Notch& n, const Point& x) {
-  const Point d = n.tip - n.mouth;
-  const double s = std::clamp((x - n.mouth).dot(d) / d.squaredNorm(), 0.0, 1.0);
-  return (x - n.mouth - s * d).norm();
-}
-
 /// Number of cells nearest to length/spacing for which no particle lies on a cut: its side would be an accident.
 int cells(const Body& body, const Rectangle& r, int component, double spacing) {
   const double length = r.high[component] - r.low[component];
