@@ -21,7 +21,7 @@ struct Engine {
   static constexpr auto dimensions = static_cast<std::size_t>(Dim);
   static constexpr auto components = static_cast<std::size_t>(tensor_size<Dim>);
 
-  Setup<Dim> setup;
+  Scene<Dim> scene;
   Material<double> material;
   fpz::Options update_options;
   double h = 0.0;   ///< smoothing length, m
@@ -31,6 +31,7 @@ struct Engine {
   Fields<Dim> damping;  ///< local damping per component, zero where prescribed
   std::vector<unsigned char> flagged;
   Field damping_work, viscous_work, artificial_work;  ///< per block, J
+  Field damping_next, viscous_next, artificial_next;  ///< per block, J: see View
   std::vector<unsigned char> bad;
   std::vector<std::size_t> slot_of;
 
@@ -52,11 +53,11 @@ struct Engine {
   const Passes<Dim>* passes = nullptr;
   View<Dim> view;
 
-  explicit Engine(const Setup<Dim>& s);
+  explicit Engine(const Scene<Dim>& s);
   Engine(const Engine&) = delete;
   Engine& operator=(const Engine&) = delete;
 
-  [[nodiscard]] bool updated() const { return setup.options.configuration == Configuration::updated; }
+  [[nodiscard]] bool updated() const { return scene.options.configuration == Configuration::updated; }
   [[nodiscard]] double now() const { return static_cast<double>(steps) * dt; }
 
   void place_particles();
@@ -79,10 +80,14 @@ struct Engine {
 
   /// The first half step of the velocity (eq 23).
   void start();
+  /// sum m v(n-1/2).v(n+1/2)/2, J.
+  [[nodiscard]] double kinetic() const;
   [[nodiscard]] Outcome step();
   /// Library update of the flagged particles of [first, last) blocks. Returns the first failure.
   [[nodiscard]] Outcome update_flagged(Index first, Index last);
+  /// Forces at n, velocities to n + 1/2 over `step` (s).
   void kick(double step);
+  /// Puts prescribed velocities in place of what the forces made of them; reactions and their work.
   void prescribe(double step);
   [[nodiscard]] Outcome find_bad() const;
 
@@ -104,7 +109,7 @@ template <class F>
 void Engine<Dim>::for_chunks(F&& f) {
   const auto blocks = static_cast<Index>(particles.blocks());
   const Index chunks = (blocks + chunk_blocks - 1) / chunk_blocks;
-  const int team = team_size(setup.options.threads);
+  const int team = team_size(scene.options.threads);
 #pragma omp parallel for schedule(dynamic, 1) num_threads(team) if (team > 1 && chunks > 1)
   for (Index c = 0; c < chunks; ++c) f(c * chunk_blocks, std::min((c + 1) * chunk_blocks, blocks));
 }

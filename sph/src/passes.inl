@@ -89,10 +89,17 @@ void gradient_reference(const V& v, Index first, Index last) {
   }
 }
 
-/// Velocity to n + 1/2 from the force at n, with gravity and local damping; work of what dissipates.
-FPZ_LANE void kick(const V& v, Index b, double (&fx)[n], double (&fy)[n], double (&work)[n]) {
+/// Adds the work of dissipating forces as the leap-frog does it: half of a force's work with the velocity before it, half
+/// with the velocity after it, the latter counted when that motion has happened.
+FPZ_LANE void account(double* total, double* next, Index b, const double (&before)[n], const double (&after)[n]) {
+  total[b] += next[b] + lane_sum(before);
+  next[b] = lane_sum(after);
+}
+
+/// Velocity to n + 1/2 from the force at n, with gravity and local damping.
+FPZ_LANE void kick(const V& v, Index b, double (&fx)[n], double (&fy)[n]) {
   const Index o = b * n;
-  double slow[n];
+  double slow[n], before[n], after[n];
   FPZ_LANES {
     const Index i = o + l;
     const double weight = v.mass[i] * v.weight_scale;
@@ -114,18 +121,19 @@ FPZ_LANE void kick(const V& v, Index b, double (&fx)[n], double (&fy)[n], double
     v.acceleration[1][i] = ay;
     v.velocity[0][i] = nx;
     v.velocity[1][i] = ny;
-    work[l] = -0.5 * v.step * (dx * (ux + nx) + dy * (uy + ny));
+    before[l] = -v.work_before * (dx * ux + dy * uy);
+    after[l] = -v.work_after * (dx * nx + dy * ny);
     slow[l] = nx * nx + ny * ny < v.top_speed * v.top_speed ? 1.0 : 0.0;  // false for NaN
   }
   v.bad[b] = lane_sum(slow) != n;
-  if (v.damped) v.damping_work[b] += lane_sum(work);
+  if (v.damped) account(v.damping_work, v.damping_next, b, before, after);
 }
 
 void force_reference(const V& v, Index first, Index last) {
   const double *txx = v.flux[0], *txy = v.flux[1], *tyx = v.flux[2], *tyy = v.flux[3];
   for (Index b = first; b < last; ++b) {
     const Index o = b * n;
-    double fx[n] = {}, fy[n] = {}, work[n];
+    double fx[n] = {}, fy[n] = {};
     for (int k = v.column[b]; k < v.column[b + 1]; ++k) {
       const Index m = Index{k} * n;
       const int* j = v.neighbour + m;
@@ -136,7 +144,7 @@ void force_reference(const V& v, Index first, Index last) {
         fy[l] += (tyx[o + l] + tyx[j[l]]) * wx[l] + (tyy[o + l] + tyy[j[l]]) * wy[l];
       }
     }
-    kick(v, b, fx, fy, work);
+    kick(v, b, fx, fy);
   }
 }
 
@@ -270,23 +278,24 @@ void force_updated(const V& v, Index first, Index last) {
         ay[l] += f * ((rxy[i] + rxy[j[l]]) * gx + (ryy[i] + ryy[j[l]]) * gy);
       }
     }
-    double work[n], sum_x[n], sum_y[n], before_x[n], before_y[n];
+    double sum_x[n], sum_y[n], viscous_before[n], viscous_after[n], artificial_before[n], artificial_after[n];
     FPZ_LANES {
+      const double mx = -v.work_before * v.velocity[0][o + l];
+      const double my = -v.work_before * v.velocity[1][o + l];
+      viscous_before[l] = vx[l] * mx + vy[l] * my;
+      artificial_before[l] = ax[l] * mx + ay[l] * my;
       sum_x[l] = fx[l] + vx[l] + ax[l];
       sum_y[l] = fy[l] + vy[l] + ay[l];
-      before_x[l] = v.velocity[0][o + l];
-      before_y[l] = v.velocity[1][o + l];
     }
-    kick(v, b, sum_x, sum_y, work);
-    double viscous[n], artificial[n];
+    kick(v, b, sum_x, sum_y);
     FPZ_LANES {
-      const double mx = 0.5 * v.step * (before_x[l] + v.velocity[0][o + l]);
-      const double my = 0.5 * v.step * (before_y[l] + v.velocity[1][o + l]);
-      viscous[l] = -(vx[l] * mx + vy[l] * my);
-      artificial[l] = -(ax[l] * mx + ay[l] * my);
+      const double mx = -v.work_after * v.velocity[0][o + l];
+      const double my = -v.work_after * v.velocity[1][o + l];
+      viscous_after[l] = vx[l] * mx + vy[l] * my;
+      artificial_after[l] = ax[l] * mx + ay[l] * my;
     }
-    v.viscous_work[b] += lane_sum(viscous);
-    v.artificial_work[b] += lane_sum(artificial);
+    account(v.viscous_work, v.viscous_next, b, viscous_before, viscous_after);
+    account(v.artificial_work, v.artificial_next, b, artificial_before, artificial_after);
   }
 }
 

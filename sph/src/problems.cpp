@@ -1,4 +1,4 @@
-// Checks of a setup and messages of failures.
+// Checks of a scene and messages of failures.
 #include <cmath>
 #include <sstream>
 
@@ -51,7 +51,7 @@ void check_options(const Options<Dim>& o, Messages& m) {
 }
 
 template <int Dim>
-void check_arrangement(const Setup<Dim>& s, Messages& m) {
+void check_arrangement(const Scene<Dim>& s, Messages& m) {
   const Arrangement<Dim>& a = s.arrangement;
   m.require(std::isfinite(a.spacing) && a.spacing > 0.0, number("spacing", a.spacing, "positive"));
   m.require(a.size() > 0, "arrangement: has no particles");
@@ -71,7 +71,7 @@ void check_arrangement(const Setup<Dim>& s, Messages& m) {
 }  // namespace
 
 template <int Dim>
-std::vector<std::string> problems(const Setup<Dim>& s) {
+std::vector<std::string> problems(const Scene<Dim>& s) {
   Messages m;
   check_options(s.options, m);
   check_arrangement(s, m);
@@ -121,6 +121,6 @@ std::string Outcome::message() const {
   return s.str();
 }
 
-template std::vector<std::string> problems<2>(const Setup<2>&);
+template std::vector<std::string> problems<2>(const Scene<2>&);
 
 }  // namespace fpz::sph

@@ -8,7 +8,7 @@
 namespace fpz::sph {
 
 template <int Dim>
-double time_step(const Setup<Dim>& s) {
+double time_step(const Scene<Dim>& s) {
   const double sound = std::sqrt(s.parameters.young_modulus / s.parameters.density);
   return s.options.courant * s.options.smoothing_ratio * s.arrangement.spacing / sound *
          std::sqrt(s.options.mass_scale);
@@ -17,9 +17,9 @@ double time_step(const Setup<Dim>& s) {
 namespace {
 
 template <int Dim>
-const Setup<Dim>& checked(const Setup<Dim>& setup) {
-  const std::vector<std::string> all = problems(setup);
-  if (all.empty()) return setup;
+const Scene<Dim>& checked(const Scene<Dim>& scene) {
+  const std::vector<std::string> all = problems(scene);
+  if (all.empty()) return scene;
   std::string text;
   for (const std::string& s : all) text += (text.empty() ? "" : "\n") + s;
   throw std::invalid_argument(text);
@@ -28,7 +28,7 @@ const Setup<Dim>& checked(const Setup<Dim>& setup) {
 }  // namespace
 
 template <int Dim>
-Simulation<Dim>::Simulation(const Setup<Dim>& setup) : engine_(new detail::Engine<Dim>(checked(setup))) {}
+Simulation<Dim>::Simulation(const Scene<Dim>& scene) : engine_(new detail::Engine<Dim>(checked(scene))) {}
 template <int Dim>
 Simulation<Dim>::~Simulation() {
   delete engine_;
@@ -101,7 +101,7 @@ Energies Simulation<Dim>::energies() const {
   Energies sum;
   sum.kinetic_start = e.kinetic_start;
   sum.external = e.prescribed_work;
-  if (!e.started) sum.kinetic = e.kinetic_start;
+  sum.kinetic = e.started ? e.kinetic() : 0.0;
   Material<double> m = e.material;
   for (std::size_t i = 0; i < p.count; ++i) {
     const double volume = p.volume[i];
@@ -119,9 +119,7 @@ Energies Simulation<Dim>::energies() const {
           volume * 0.25 / mu * (double_dot<Dim>(s, s) - lambda / (Dim * lambda + 2.0 * mu) * trace * trace);
     }
     for (std::size_t c = 0; c < p.start.size(); ++c) {
-      const double after = p.velocity[c][i];
-      if (e.started) sum.kinetic += 0.5 * p.mass[i] * after * (after - e.dt * p.acceleration[c][i]);
-      sum.external += p.mass[i] * e.view.weight_scale * e.setup.options.gravity[static_cast<int>(c)] *
+      sum.external += p.mass[i] * e.view.weight_scale * e.scene.options.gravity[static_cast<int>(c)] *
                       (p.position[c][i] - p.start[c][i]);
     }
   }
@@ -131,7 +129,7 @@ Energies Simulation<Dim>::energies() const {
   return sum;
 }
 
-template double time_step<2>(const Setup<2>&);
+template double time_step<2>(const Scene<2>&);
 template class Simulation<2>;
 
 }  // namespace fpz::sph

@@ -1,4 +1,4 @@
-// The complete state as bytes. Layout: magic, version, fingerprint of the setup, the fields below, checksum (FNV-1a of
+// The complete state as bytes. Layout: magic, version, fingerprint of the scene, the fields below, checksum (FNV-1a of
 // all before). Native byte order: a snapshot belongs to one kind of machine.
 #include <cstdint>
 #include <cstring>
@@ -90,7 +90,7 @@ void visit(A& archive, std::array<Field, N>& fields) {
 
 /// What defines the run, as bytes: a snapshot continues only the same run. Threads and instruction set do not matter.
 template <int Dim>
-std::uint64_t fingerprint(Setup<Dim> s) {
+std::uint64_t fingerprint(Scene<Dim> s) {
   Writer w;
   const auto put = [&](auto x) { w(x); };
   Options<Dim>& o = s.options;
@@ -153,6 +153,9 @@ void visit(A& archive, detail::Engine<Dim>& e) {
   archive(e.damping_work);
   archive(e.viscous_work);
   archive(e.artificial_work);
+  archive(e.damping_next);
+  archive(e.viscous_next);
+  archive(e.artificial_next);
   visit(archive, e.built_at);
   archive(e.lists);
   for (auto& r : e.reaction) visit(archive, r);
@@ -164,7 +167,7 @@ void visit(A& archive, detail::Engine<Dim>& e) {
 template <int Dim>
 std::vector<unsigned char> Simulation<Dim>::snapshot() const {
   Writer w;
-  std::uint64_t head[3] = {magic, version, fingerprint(engine_->setup)};
+  std::uint64_t head[3] = {magic, version, fingerprint(engine_->scene)};
   for (std::uint64_t& x : head) w(x);
   visit(w, *engine_);
   std::uint64_t sum = fnv(w.bytes);
@@ -184,7 +187,7 @@ void Simulation<Dim>::restore(std::span<const unsigned char> bytes) {
   for (std::uint64_t& x : head) r(x);
   if (head[0] != magic) throw std::runtime_error("snapshot: not one of this program");
   if (head[1] != version) throw std::runtime_error("snapshot: of another version of the program");
-  if (head[2] != fingerprint(engine_->setup)) throw std::runtime_error("snapshot: of another setup");
+  if (head[2] != fingerprint(engine_->scene)) throw std::runtime_error("snapshot: of another scene");
   visit(r, *engine_);
   if (r.left() != 0) throw std::runtime_error("snapshot: too long");
   engine_->remake_bonds();

@@ -14,6 +14,8 @@ template <int Dim>
 void Engine<Dim>::kick(double step) {
   View<Dim> v = view;
   v.step = step;
+  v.work_before = started ? 0.5 * dt : 0.0;
+  v.work_after = 0.5 * dt;
   const auto pass = updated() ? passes->force_updated : passes->force_reference;
   for_chunks([&](Index first, Index last) { pass(v, first, last); });
   prescribe(step);
@@ -25,9 +27,9 @@ void Engine<Dim>::prescribe(double step) {
   std::vector<Vec<double, Dim>> old_reaction = reaction;
   std::vector<Vec<double, Dim>> old_velocity = group_velocity;
   const double between = now() + 0.5 * dt;
-  for (std::size_t g = 0; g < setup.groups.size(); ++g) {
+  for (std::size_t g = 0; g < scene.groups.size(); ++g) {
     for (std::size_t c = 0; c < dimensions; ++c) {
-      const std::optional<Motion>& motion = setup.groups[g].motion[c];
+      const std::optional<Motion>& motion = scene.groups[g].motion[c];
       if (motion) group_velocity[g][static_cast<int>(c)] = motion->velocity(between);
     }
     reaction[g].setZero();
@@ -43,19 +45,13 @@ void Engine<Dim>::prescribe(double step) {
     velocity = target;
   }
   // Trapezoidal in the force: the work that makes the leap-frog's energy exact for an elastic body.
-  for (std::size_t g = 0; g < setup.groups.size(); ++g) {
+  for (std::size_t g = 0; g < scene.groups.size(); ++g) {
     if (started) prescribed_work += 0.5 * dt * (old_reaction[g] + reaction[g]).dot(old_velocity[g]);
   }
 }
 
 template <int Dim>
 void Engine<Dim>::start() {
-  Particles<Dim>& p = particles;
-  for (std::size_t i = 0; i < p.count; ++i) {
-    for (std::size_t c = 0; c < dimensions; ++c) {
-      kinetic_start += 0.5 * p.mass[i] * p.velocity[c][i] * p.velocity[c][i];
-    }
-  }
   if (updated()) {  // weights and corrections, without motion
     View<Dim> v = view;
     v.step = 0.0;
@@ -64,6 +60,19 @@ void Engine<Dim>::start() {
   }
   kick(0.5 * dt);
   started = true;
+  kinetic_start = kinetic();
+}
+
+template <int Dim>
+double Engine<Dim>::kinetic() const {
+  const Particles<Dim>& p = particles;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < p.count; ++i) {
+    for (std::size_t c = 0; c < dimensions; ++c) {
+      sum += 0.5 * p.mass[i] * p.velocity[c][i] * (p.velocity[c][i] - dt * p.acceleration[c][i]);
+    }
+  }
+  return sum;
 }
 
 template <int Dim>
@@ -92,7 +101,7 @@ Outcome Engine<Dim>::step() {
       passes->drift(view, first, last);
       update(first, last);
     });
-    if (setup.options.release_integrity > 0.0 && steps % release_interval == 0) release_bonds();
+    if (scene.options.release_integrity > 0.0 && steps % release_interval == 0) release_bonds();
   }
   for (const Outcome& f : failures) {
     if (!f.ok()) return f;
@@ -123,6 +132,7 @@ Outcome Engine<Dim>::find_bad() const {
 template void Engine<2>::kick(double);
 template void Engine<2>::prescribe(double);
 template void Engine<2>::start();
+template double Engine<2>::kinetic() const;
 template Outcome Engine<2>::step();
 template Outcome Engine<2>::find_bad() const;
 

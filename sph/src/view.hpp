@@ -37,14 +37,18 @@ struct View {
   const double* damping[d] = {};  // per component: zero where the velocity is prescribed
   unsigned char* flagged = nullptr;
 
-  // Per block.
+  // Per block: work so far, and what the force at n will have done by n + 1/2.
   double* damping_work = nullptr;
+  double* damping_next = nullptr;
   double* viscous_work = nullptr;
+  double* viscous_next = nullptr;
   double* artificial_work = nullptr;
+  double* artificial_next = nullptr;
   unsigned char* bad = nullptr;
 
   // Constants.
   double step = 0.0;  // s; of the kick: half at the start
+  double work_before = 0.0, work_after = 0.0;  // half a step each; before is zero at the start
   double lambda = 0.0, mu = 0.0;
   double sin_phi = 0.0, strength = 0.0, apex = 0.0;  // onset: strength = c0 cos(phi)
   double gravity[d] = {};

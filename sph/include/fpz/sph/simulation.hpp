@@ -22,7 +22,7 @@ struct Engine;
 
 /// Everything that defines a run.
 template <int Dim>
-struct Setup {
+struct Scene {
   Arrangement<Dim> arrangement;
   std::vector<Group<Dim>> groups;
   Parameters parameters;  ///< rve_length is ignored: options.rve_length decides
@@ -31,13 +31,13 @@ struct Setup {
   std::vector<Vec<double, Dim>> velocity;  ///< at the start, per particle, m/s; empty: at rest
 };
 
-/// What is wrong with a setup, one message per problem with the field's name; empty when it can run.
+/// What is wrong with a scene, one message per problem with the field's name; empty when it can run.
 template <int Dim>
-[[nodiscard]] std::vector<std::string> problems(const Setup<Dim>& setup);
+[[nodiscard]] std::vector<std::string> problems(const Scene<Dim>& scene);
 
 /// The time step that eq 32 gives, s: courant * h/sqrt(E/rho), times sqrt(mass_scale).
 template <int Dim>
-[[nodiscard]] double time_step(const Setup<Dim>& setup);
+[[nodiscard]] double time_step(const Scene<Dim>& scene);
 
 /// One run. Particles interact with all others of the arrangement, boundary groups included. The result does not depend
 /// on the number of threads or on the instruction set.
@@ -45,7 +45,7 @@ template <int Dim>
 class Simulation {
  public:
   /// Throws std::invalid_argument with all problems().
-  explicit Simulation(const Setup<Dim>& setup);
+  explicit Simulation(const Scene<Dim>& scene);
   ~Simulation();
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;
@@ -71,7 +71,7 @@ class Simulation {
   [[nodiscard]] double mean_neighbours() const;
 
   /// The complete state as bytes; restore() continues bit for bit. Throws std::runtime_error when the bytes are damaged
-  /// or belong to another setup.
+  /// or belong to another scene.
   [[nodiscard]] std::vector<unsigned char> snapshot() const;
   void restore(std::span<const unsigned char> bytes);
 
