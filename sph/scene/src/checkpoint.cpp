@@ -20,12 +20,10 @@ std::uint64_t fnv(std::string_view bytes) {
 class Out {
  public:
   template <class T>
-    requires std::is_arithmetic_v<T>
-  void operator()(const T& x) {
-    bytes.append(reinterpret_cast<const char*>(&x), sizeof x);
-  }
+  requires std::is_arithmetic_v<T>
+  void operator()(const T& x) { bytes.append(reinterpret_cast<const char*>(&x), sizeof x); }
   template <class C>
-    requires requires(C c) { c.size(); }
+  requires requires(C c) { c.size(); }
   void operator()(const C& values) {
     (*this)(static_cast<std::uint64_t>(values.size()));
     for (const auto& v : values) (*this)(v);
@@ -41,14 +39,14 @@ class In {
  public:
   explicit In(std::string_view bytes) : bytes_(bytes) {}
   template <class T>
-    requires std::is_arithmetic_v<T>
+  requires std::is_arithmetic_v<T>
   void operator()(T& x) {
     if (bytes_.size() < sizeof x) throw io::InputError("it is too short");
     std::memcpy(&x, bytes_.data(), sizeof x);
     bytes_.remove_prefix(sizeof x);
   }
   template <class C>
-    requires requires(C c) { c.size(); }
+  requires requires(C c) { c.size(); }
   void operator()(C& values) {
     std::uint64_t n = 0;
     (*this)(n);

@@ -60,7 +60,8 @@ std::vector<std::vector<std::size_t>> components(const std::vector<Point>& point
   return groups;
 }
 
-/// Parents of the minimal spanning tree of some points, by Prim; the root is its own parent. Order of insertion in `order`.
+/// Parents of the minimal spanning tree of some points, by Prim; the root is its own parent. Order of insertion in
+/// `order`.
 std::vector<std::size_t> spanning_tree(const std::vector<Point>& points, std::vector<std::size_t>& order) {
   const std::size_t n = points.size();
   std::vector<std::size_t> parent(n, 0);
@@ -116,8 +117,8 @@ std::vector<std::size_t> longest_path(const std::vector<Point>& points) {
 }
 
 /// The path with its zigzag averaged out, about one point per spacing.
-CrackPath smooth(const std::vector<Point>& centres, const std::vector<Spot>& spots, const std::vector<std::size_t>& path,
-                 double spacing) {
+CrackPath smooth(const std::vector<Point>& centres, const std::vector<Spot>& spots,
+                 const std::vector<std::size_t>& path, double spacing) {
   CrackPath line;
   const auto n = static_cast<std::ptrdiff_t>(path.size());
   for (std::ptrdiff_t k = 0; k < n; ++k) {
@@ -207,7 +208,8 @@ std::vector<CrackPath> crack_paths(const std::vector<Spot>& all, double spacing,
       return near;
     });
   }
-  std::stable_sort(lines.begin(), lines.end(), [](const CrackPath& a, const CrackPath& b) { return a.length() > b.length(); });
+  std::stable_sort(lines.begin(), lines.end(),
+                   [](const CrackPath& a, const CrackPath& b) { return a.length() > b.length(); });
   return lines;
 }
 
@@ -220,7 +222,8 @@ std::vector<double> piece_areas(const std::vector<Spot>& all, const std::vector<
   const std::vector<Point> points = places(whole);
   // Nearest neighbours only: a crack one particle wide separates.
   const auto groups = components(points, 1.3 * spacing, [&](std::size_t i, std::size_t j) {
-    return std::none_of(notches.begin(), notches.end(), [&](const Notch& n) { return crosses(n, points[i], points[j]); });
+    return std::none_of(notches.begin(), notches.end(),
+                        [&](const Notch& n) { return crosses(n, points[i], points[j]); });
   });
   std::vector<double> areas;
   for (const auto& group : groups) {

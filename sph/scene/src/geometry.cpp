@@ -54,20 +54,19 @@ Intervals minus(const Intervals& a, const Intervals& b) {
 
 /// Where the line at height y is inside the shape.
 Intervals chord(const Shape& shape, double y) {
-  return std::visit(Overload{[&](const Rectangle& r) -> Intervals {
-                               if (y < r.low[1] || y > r.high[1]) return {};
-                               return {{r.low[0], r.high[0]}};
-                             },
-                             [&](const Disc& d) { return chord(d.centre, d.radius, y); },
-                             [&](const HalfDisc& d) -> Intervals {
-                               if (y < d.centre[1]) return {};
-                               return chord(d.centre, d.radius, y);
-                             },
-                             [&](const Ring& r) {
-                               return minus(chord(r.centre, r.outer, y), chord(r.centre, r.inner, y));
-                             },
-                             [&](const Polygon& p) { return chord(p.corners, y); }},
-                    shape);
+  return std::visit(
+      Overload{[&](const Rectangle& r) -> Intervals {
+                 if (y < r.low[1] || y > r.high[1]) return {};
+                 return {{r.low[0], r.high[0]}};
+               },
+               [&](const Disc& d) { return chord(d.centre, d.radius, y); },
+               [&](const HalfDisc& d) -> Intervals {
+                 if (y < d.centre[1]) return {};
+                 return chord(d.centre, d.radius, y);
+               },
+               [&](const Ring& r) { return minus(chord(r.centre, r.outer, y), chord(r.centre, r.inner, y)); },
+               [&](const Polygon& p) { return chord(p.corners, y); }},
+      shape);
 }
 
 std::vector<Point> arc(const Point& centre, double radius, double from, double to) {
@@ -87,17 +86,16 @@ std::vector<Point> closed(std::vector<Point> line) {
 
 std::vector<std::vector<Point>> outlines(const Shape& shape) {
   using Lines = std::vector<std::vector<Point>>;
-  return std::visit(
-      Overload{[](const Rectangle& r) -> Lines {
-                 return {closed({r.low, Point(r.high[0], r.low[1]), r.high, Point(r.low[0], r.high[1])})};
-               },
-               [](const Disc& d) -> Lines { return {arc(d.centre, d.radius, 0.0, 2.0 * pi)}; },
-               [](const HalfDisc& d) -> Lines { return {closed(arc(d.centre, d.radius, 0.0, pi))}; },
-               [](const Ring& r) -> Lines {
-                 return {arc(r.centre, r.outer, 0.0, 2.0 * pi), arc(r.centre, r.inner, 0.0, 2.0 * pi)};
-               },
-               [](const Polygon& p) -> Lines { return {closed(p.corners)}; }},
-      shape);
+  return std::visit(Overload{[](const Rectangle& r) -> Lines {
+                               return {closed({r.low, Point(r.high[0], r.low[1]), r.high, Point(r.low[0], r.high[1])})};
+                             },
+                             [](const Disc& d) -> Lines { return {arc(d.centre, d.radius, 0.0, 2.0 * pi)}; },
+                             [](const HalfDisc& d) -> Lines { return {closed(arc(d.centre, d.radius, 0.0, pi))}; },
+                             [](const Ring& r) -> Lines {
+                               return {arc(r.centre, r.outer, 0.0, 2.0 * pi), arc(r.centre, r.inner, 0.0, 2.0 * pi)};
+                             },
+                             [](const Polygon& p) -> Lines { return {closed(p.corners)}; }},
+                    shape);
 }
 
 }  // namespace
@@ -114,13 +112,14 @@ bool contains(const Body& body, const Point& x) {
   for (const Shape& hole : body.holes) {
     if (contains(hole, x)) return false;
   }
-  return std::none_of(body.notches.begin(), body.notches.end(), [&](const Notch& n) {
-    return n.width > 0.0 && contains(Polygon{corners(n)}, x);
-  });
+  return std::none_of(body.notches.begin(), body.notches.end(),
+                      [&](const Notch& n) { return n.width > 0.0 && contains(Polygon{corners(n)}, x); });
 }
 
 std::pair<Point, Point> extent(const Shape& shape) {
-  const auto around = [](const Point& c, double r) { return std::pair(Point(c[0] - r, c[1] - r), Point(c[0] + r, c[1] + r)); };
+  const auto around = [](const Point& c, double r) {
+    return std::pair(Point(c[0] - r, c[1] - r), Point(c[0] + r, c[1] + r));
+  };
   return std::visit(Overload{[](const Rectangle& r) { return std::pair(r.low, r.high); },
                              [&](const Disc& d) { return around(d.centre, d.radius); },
                              [&](const HalfDisc& d) {

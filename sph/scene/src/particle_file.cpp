@@ -18,7 +18,8 @@ Arrangement<2> assemble(const std::vector<double>& x, const std::vector<double>&
     const std::string who = file + ": particle " + std::to_string(i) + ": ";
     if (!std::isfinite(x[i]) || !std::isfinite(y[i])) throw InputError(who + "its position is no number");
     if (!(v > 0.0) || !std::isfinite(v)) throw InputError(who + "its volume is not positive");
-    if (g != std::floor(g) || g < -1.0 || g > 1e6) throw InputError(who + "its group is not -1 or the index of a boundary");
+    if (g != std::floor(g) || g < -1.0 || g > 1e6)
+      throw InputError(who + "its group is not -1 or the index of a boundary");
     a.add(Point(x[i], y[i]), v, static_cast<int>(g));
   }
   return a;

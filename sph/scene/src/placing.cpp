@@ -60,13 +60,15 @@ Arrangement<2> lattice(const Body& body, const Pattern& pattern, double spacing)
   for (const Point& corner : {low, high, Point(low[0], high[1]), Point(high[0], low[1])}) {
     const Point d = corner - pattern.origin;
     const double determinant = u[0] * v[1] - u[1] * v[0];
-    const Point c((d[0] * v[1] - d[1] * v[0]) / determinant / spacing, (u[0] * d[1] - u[1] * d[0]) / determinant / spacing);
+    const Point c((d[0] * v[1] - d[1] * v[0]) / determinant / spacing,
+                  (u[0] * d[1] - u[1] * d[0]) / determinant / spacing);
     first = first.cwiseMin(c).eval();
     last = last.cwiseMax(c).eval();
   }
   for (auto j = static_cast<long>(std::floor(first[1])); j <= static_cast<long>(std::ceil(last[1])); ++j) {
     for (auto i = static_cast<long>(std::floor(first[0])); i <= static_cast<long>(std::ceil(last[0])); ++i) {
-      const Point x = pattern.origin + spacing * ((static_cast<double>(i) + 0.5) * u + (static_cast<double>(j) + 0.5) * v);
+      const Point x =
+          pattern.origin + spacing * ((static_cast<double>(i) + 0.5) * u + (static_cast<double>(j) + 0.5) * v);
       if (contains(body, x)) a.add(x, 1.0);
     }
   }
@@ -74,8 +76,8 @@ Arrangement<2> lattice(const Body& body, const Pattern& pattern, double spacing)
   return a;
 }
 
-/// Rings between two radii. Even numbers of particles, one at the top: symmetric about both axes. A disc has one particle
-/// in its middle.
+/// Rings between two radii. Even numbers of particles, one at the top: symmetric about both axes. A disc has one
+/// particle in its middle.
 void add_rings(Arrangement<2>& a, const Body& body, const Point& centre, double inner, double outer, bool half) {
   const double middle = inner > 0.0 ? inner : 0.5 * outer / (std::floor(outer / a.spacing) + 0.5);
   const int rings = std::max(1, static_cast<int>(std::lround((outer - middle) / a.spacing)));
@@ -158,7 +160,8 @@ void place_platen(Arrangement<2>& a, const Shape& shape, const Platen& platen, i
   for (int k = 0; k < columns; ++k) {
     const Point line = platen.at + (k + 0.5 - 0.5 * columns) * pitch * t;
     const double hit = first_hit(shape, line + 0.5 * reach * d, d, reach);
-    if (hit < 0.0) throw std::invalid_argument("the platen is wider than the body: one of its columns misses the surface");
+    if (hit < 0.0)
+      throw std::invalid_argument("the platen is wider than the body: one of its columns misses the surface");
     const double height = 0.5 * reach - hit;
     feet.push_back(line + height * d);
     outermost = std::max(outermost, height);

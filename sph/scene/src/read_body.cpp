@@ -81,7 +81,8 @@ Notch read_notch(const InputReader& r, const Place& place) {
   double length = 1.0, angle = 0.0;
   with_required(r, place, "mouth", [&](const Place& p) { n.mouth = point(r, p).value_or(n.mouth); });
   with_required(r, place, "length", [&](const Place& p) { length = r.positive(p).value_or(1.0); });
-  with(place, "angle_deg", [&](const Place& p) { angle = degree * r.number_between(p, -360.0, 360.0, true).value_or(0.0); });
+  with(place, "angle_deg",
+       [&](const Place& p) { angle = degree * r.number_between(p, -360.0, 360.0, true).value_or(0.0); });
   with(place, "width", [&](const Place& p) { n.width = not_negative(r, p).value_or(0.0); });
   n.tip = n.mouth + length * Point(-std::sin(angle), std::cos(angle));
   return n;
@@ -107,9 +108,8 @@ Point default_origin(const Shape& shape) {
 void read_lattice(const InputReader& r, const Place& place, SceneFile& scene) {
   Pattern& pattern = scene.pattern;
   r.known_keys(place, lattice_keys);
-  with(place, "angle_deg", [&](const Place& p) {
-    pattern.angle = degree * r.number_between(p, -89.0, 89.0, true).value_or(0.0);
-  });
+  with(place, "angle_deg",
+       [&](const Place& p) { pattern.angle = degree * r.number_between(p, -89.0, 89.0, true).value_or(0.0); });
   with(place, "origin", [&](const Place& p) {
     pattern.origin = point(r, p).value_or(pattern.origin);
     pattern.fit = false;

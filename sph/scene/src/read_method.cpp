@@ -5,9 +5,9 @@ namespace fpz::sph::detail {
 namespace {
 
 constexpr std::array<std::string_view, 17> keys = {
-    "configuration",   "momentum",       "kernel",            "smoothing_ratio", "courant",    "rve_length",
-    "integrator",      "viscosity_alpha", "viscosity_beta",   "artificial_stress", "skin",     "damping",
-    "mass_scale",      "release_integrity", "gravity",        "threads",         "instruction_set"};
+    "configuration", "momentum",          "kernel",         "smoothing_ratio",   "courant",        "rve_length",
+    "integrator",    "viscosity_alpha",   "viscosity_beta", "artificial_stress", "skin",           "damping",
+    "mass_scale",    "release_integrity", "gravity",        "threads",           "instruction_set"};
 constexpr std::array<std::string_view, 2> configurations = {"reference", "updated"};
 constexpr std::array<std::string_view, 2> momenta = {"adjoint", "paper"};
 constexpr std::array<std::string_view, 2> kernels = {"cubic_spline", "wendland_c2"};

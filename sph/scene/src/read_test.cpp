@@ -4,8 +4,8 @@
 namespace fpz::sph::detail {
 namespace {
 
-constexpr std::array<std::string_view, 8> boundary_keys = {"name",  "at",       "direction", "width",
-                                                           "layers", "fit",     "velocity",  "elastic"};
+constexpr std::array<std::string_view, 8> boundary_keys = {"name",   "at",  "direction", "width",
+                                                           "layers", "fit", "velocity",  "elastic"};
 constexpr std::array<std::string_view, 2> fits = {"surface", "flat"};
 constexpr std::array<std::string_view, 2> components = {"x", "y"};
 constexpr std::array<std::string_view, 2> motion_keys = {"speed", "ramp"};
@@ -14,13 +14,13 @@ constexpr std::array<std::string_view, 7> gauge_keys = {"force_on",      "displa
 constexpr std::array<std::string_view, 5> site_keys = {"group", "point", "radius", "low", "high"};
 constexpr std::array<std::string_view, 3> stresses = {"xx", "yy", "xy"};
 constexpr std::array<std::string_view, 4> stop_keys = {"time", "deflection", "load_below", "separation"};
-constexpr std::array<std::string_view, 6> output_keys = {"history_rows",  "frames",             "frames_at",
-                                                         "picture_loads", "checkpoint_seconds", "pictures"};
+constexpr std::array<std::string_view, 6> output_keys = {"history_rows",       "frames",  "frames_at", "picture_loads",
+                                                         "checkpoint_seconds", "pictures"};
 /// Columns of history.csv that gauges must not take.
 constexpr std::array<std::string_view, 14> taken = {
-    "step",           "time",           "energy_external", "energy_elastic",    "energy_kinetic",
-    "energy_fracture", "energy_viscous", "energy_damping", "energy_artificial", "energy_error",
-    "damaged_particles", "cracked_particles", "largest_damage", "released_bonds"};
+    "step",           "time",           "energy_external",   "energy_elastic", "energy_kinetic",    "energy_fracture",
+    "energy_viscous", "energy_damping", "energy_artificial", "energy_error",   "damaged_particles", "cracked_particles",
+    "largest_damage", "released_bonds"};
 
 Motion read_motion(const InputReader& r, const Place& p) {
   Motion m;
@@ -41,7 +41,8 @@ Boundary read_boundary(const InputReader& r, const Place& place, const SceneFile
   r.known_keys(place, boundary_keys);
   with_required(r, place, "name", [&](const Place& p) { b.name = r.text(p, longest_name).value_or(""); });
   for (const Boundary& other : scene.boundaries) {
-    if (!b.name.empty() && other.name == b.name) r.problem(place, "two boundaries with the name " + io::in_quotes(b.name));
+    if (!b.name.empty() && other.name == b.name)
+      r.problem(place, "two boundaries with the name " + io::in_quotes(b.name));
   }
   // With particles from a file the boundary may be among them.
   if (!scene.particles || place.value().find("at") != nullptr) {
@@ -175,7 +176,8 @@ std::optional<Gauge> read_gauge(const InputReader& r, const Place& place, const 
   return gauge;
 }
 
-void require_kind(const InputReader& r, const Place& place, const SceneFile& scene, const std::string& name, bool force) {
+void require_kind(const InputReader& r, const Place& place, const SceneFile& scene, const std::string& name,
+                  bool force) {
   const auto at = scene.gauges.find(name);
   if (at == scene.gauges.end()) return;
   if (std::holds_alternative<ForceGauge>(at->second) == force &&
@@ -199,8 +201,8 @@ void read_gauges(const InputReader& r, const Place& place, SceneFile& scene) {
   for (const JsonValue& member : place.value().items) {
     const Place p(place, member);
     const bool plain = !member.key.empty() && member.key.size() <= 40 &&
-                       member.key.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_") ==
-                           std::string::npos;
+                       member.key.find_first_not_of(
+                           "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_") == std::string::npos;
     if (!plain) r.problem(p, "names of gauges have at most 40 letters, digits and underscores");
     if (std::find(taken.begin(), taken.end(), member.key) != taken.end()) r.problem(p, "this column exists already");
     if (auto gauge = read_gauge(r, p, scene)) scene.gauges.emplace(member.key, *gauge);

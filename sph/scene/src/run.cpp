@@ -26,7 +26,11 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 class Runner {
  public:
   Runner(const SceneFile& scene, const RunRequest& request)
-      : scene_(scene), request_(request), files_(request.folder), specimen_(make_specimen(scene)), run_(specimen_.setup),
+      : scene_(scene),
+        request_(request),
+        files_(request.folder),
+        specimen_(make_specimen(scene)),
+        run_(specimen_.setup),
         schedule_(schedule_of(scene, run_.time_step())) {
     for (const char* name : {"deflection", "load", "support", "cmod"}) order_.emplace_back(name);
     for (const auto& [name, gauge] : specimen_.gauges) {
@@ -49,7 +53,8 @@ class Runner {
     if (request_.resume) {
       resume();
     } else {
-      io::require_absent({files_.scene, files_.history, files_.summary, files_.checkpoint, files_.frames}, request_.force);
+      io::require_absent({files_.scene, files_.history, files_.summary, files_.checkpoint, files_.frames},
+                         request_.force);
       clean();
       begin_history();
     }
@@ -77,7 +82,8 @@ class Runner {
   void begin_history() {
     History& h = record_.history;
     h.columns = {"step", "time", "deflection", "load", "support", "cmod"};
-    for (const char* name : {"external", "elastic", "kinetic", "fracture", "viscous", "damping", "artificial", "error"}) {
+    for (const char* name :
+         {"external", "elastic", "kinetic", "fracture", "viscous", "damping", "artificial", "error"}) {
       h.columns.push_back(std::string("energy_") + name);
     }
     for (const char* name : {"damaged_particles", "largest_damage", "released_bonds"}) h.columns.emplace_back(name);
@@ -104,13 +110,15 @@ class Runner {
     std::error_code error;
     const auto frame = record_.frames.empty() ? 0 : fs::file_size(request_.folder / record_.frames.front().file, error);
     const double frames = scene_.output.frames + static_cast<double>(record_.levels_done.size()) + 2.0;
-    const double history = 20.0 * static_cast<double>(record_.history.columns.size()) * (scene_.output.history_rows + 2.0);
-    const double needed = static_cast<double>(frame) * frames + 3.0 * history +
-                          2.0 * static_cast<double>(run_.snapshot().size()) + 2e7;
+    const double history =
+        20.0 * static_cast<double>(record_.history.columns.size()) * (scene_.output.history_rows + 2.0);
+    const double needed =
+        static_cast<double>(frame) * frames + 3.0 * history + 2.0 * static_cast<double>(run_.snapshot().size()) + 2e7;
     const auto space = fs::space(request_.folder, error);
     if (!error && static_cast<double>(space.available) < needed) {
       throw io::OutputError(request_.folder.string() + ": the disk has " + std::to_string(space.available >> 20U) +
-                            " MiB left, this run needs about " + std::to_string(static_cast<long long>(needed / 1048576.0)) +
+                            " MiB left, this run needs about " +
+                            std::to_string(static_cast<long long>(needed / 1048576.0)) +
                             " MiB (output.frames sets most of it)");
     }
   }
@@ -165,7 +173,8 @@ class Runner {
       return record_.window_steps > 0 ? record_.window[k] / static_cast<double>(record_.window_steps) : 0.0;
     };
     for (std::size_t k = 0; k < 4; ++k) row.push_back(gauge(k));
-    for (const double x : {e.external, e.elastic, e.kinetic, e.fracture, e.viscous, e.damping, e.artificial, e.error()}) {
+    for (const double x :
+         {e.external, e.elastic, e.kinetic, e.fracture, e.viscous, e.damping, e.artificial, e.error()}) {
       row.push_back(b * x);
     }
     row.push_back(static_cast<double>(run_.cracked()));
@@ -220,7 +229,8 @@ class Runner {
   [[nodiscard]] std::string stop_reason() const {
     const History& h = record_.history;
     if (run_.steps() >= schedule_.steps) return "the time is over (stop.time)";
-    if (scene_.stop.deflection && h.last("deflection") >= *scene_.stop.deflection) return "deflection reached (stop.deflection)";
+    if (scene_.stop.deflection && h.last("deflection") >= *scene_.stop.deflection)
+      return "deflection reached (stop.deflection)";
     if (scene_.stop.load_below && run_.cracked() > 0 && h.rows() > 4) {
       bool below = true;
       for (std::size_t k = 1; k <= 3; ++k) {
@@ -277,6 +287,7 @@ class Runner {
     write_crack(paths);
     const Findings f = findings(scene_, record_.history, opened_length(all, scene_.spacing));
     result.warnings = warnings_of(scene_, record_.history, f);
+    result.report = report_of(f);
     result.record = record_;
     io::write_text(files_.summary, summary_text({scene_, specimen_, run_, result, f, paths, pieces}), true);
     std::error_code ignored;
@@ -312,8 +323,12 @@ class Runner {
 }  // namespace
 
 RunFiles::RunFiles(const fs::path& folder)
-    : scene(folder / "scene.json"), history(folder / "history.csv"), summary(folder / "summary.json"),
-      checkpoint(folder / "checkpoint.bin"), frames(folder / "frames"), crack(folder / "crack.csv") {}
+    : scene(folder / "scene.json"),
+      history(folder / "history.csv"),
+      summary(folder / "summary.json"),
+      checkpoint(folder / "checkpoint.bin"),
+      frames(folder / "frames"),
+      crack(folder / "crack.csv") {}
 
 Schedule schedule_of(const SceneFile& scene, double time_step) {
   Schedule s;

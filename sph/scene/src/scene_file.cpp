@@ -22,7 +22,8 @@ std::optional<io::Material> read_material_of(const InputReader& r, JsonValue& ro
   const Place place(top, *given);
   if (given->is(JsonValue::Kind::object)) return io::read_material(r, place, "inline");
   if (!given->is(JsonValue::Kind::string)) {
-    r.problem(place, "expected an object with the parameters or the name of a material file, found " + given->description());
+    r.problem(place,
+              "expected an object with the parameters or the name of a material file, found " + given->description());
     return std::nullopt;
   }
   const fs::path file = fs::path(r.file()).parent_path() / given->text;

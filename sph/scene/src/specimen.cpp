@@ -20,7 +20,8 @@ Arrangement<2> place(const SceneFile& scene) {
     const int group = static_cast<int>(b);
     if (!boundary.platen) {
       if (std::find(a.group.begin(), a.group.end(), group) == a.group.end()) {
-        fail(scene, "boundary \"" + boundary.name + "\" has no \"at\", and no particle of the file has group " + std::to_string(b));
+        fail(scene, "boundary \"" + boundary.name + "\" has no \"at\", and no particle of the file has group " +
+                        std::to_string(b));
       }
       continue;
     }
@@ -62,7 +63,8 @@ std::vector<std::size_t> particles_of(const Site& site, const SceneFile& scene, 
   // Particles equally near all count: which one is first would be an accident.
   if (found.empty()) {
     for (std::size_t i = 0; i < a.size(); ++i) {
-      if (a.group[i] == Arrangement<2>::specimen && (a.position[i] - site.centre).norm() <= nearest + 1e-6 * a.spacing) {
+      if (a.group[i] == Arrangement<2>::specimen &&
+          (a.position[i] - site.centre).norm() <= nearest + 1e-6 * a.spacing) {
         found.push_back(i);
       }
     }
@@ -221,7 +223,8 @@ PointCloud frame_of(const Simulation<2>& run, const Specimen& specimen) {
     group.push_back(a.group[id]);
     volume.push_back(a.volume[id]);
     damage.push_back(cracked ? 1.0 - p.point[i].crack.integrity : 0.0);
-    const Mat<double, 2, 2> axes = cracked ? Mat<double, 2, 2>(q * p.point[i].frame.transpose()) : Mat<double, 2, 2>(Mat<double, 2, 2>::Zero());
+    const Mat<double, 2, 2> axes =
+        cracked ? Mat<double, 2, 2>(q * p.point[i].frame.transpose()) : Mat<double, 2, 2>(Mat<double, 2, 2>::Zero());
     vector(normal, axes(0, 0), axes(1, 0));
     const Point opening = cracked ? Point(axes * p.point[i].crack.jump) : Point(0.0, 0.0);
     vector(jump, opening[0], opening[1]);

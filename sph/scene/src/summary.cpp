@@ -117,10 +117,23 @@ std::vector<std::string> warnings_of(const SceneFile& scene, const History& h, c
   }
   if (scene.options.mass_scale > 1.0) {
     std::ostringstream s;
-    s << "inertia is multiplied by " << scene.options.mass_scale << " (mass_scale): times and velocities of free motion are not real";
+    s << "inertia is multiplied by " << scene.options.mass_scale
+      << " (mass_scale): times and velocities of free motion are not real";
     list.push_back(s.str());
   }
   return list;
+}
+
+std::string report_of(const Findings& f) {
+  std::ostringstream s;
+  s.precision(4);
+  s << "  peak load " << f.peak_load << " N at " << 1e6 * f.deflection_at_peak << " um, stiffness " << f.stiffness
+    << " N/m\n"
+    << "  dissipated over crack area times G: " << f.fracture_energy_ratio << " (crack area " << 1e6 * f.crack_area
+    << " mm^2)\n"
+    << "  kinetic over internal energy " << percent(f.kinetic_ratio) << " before the peak, "
+    << percent(f.kinetic_ratio_after) << " after; balance error " << percent(f.balance_error) << "\n";
+  return s.str();
 }
 
 std::string summary_text(const SummaryInput& in) {
@@ -151,13 +164,15 @@ std::string summary_text(const SummaryInput& in) {
   j["pieces_area"] = in.pieces;
   Json energies;
   if (h.rows() > 0) {
-    for (const char* name : {"external", "elastic", "kinetic", "fracture", "viscous", "damping", "artificial", "error"}) {
+    for (const char* name :
+         {"external", "elastic", "kinetic", "fracture", "viscous", "damping", "artificial", "error"}) {
       energies[name] = number(h.last(std::string("energy_") + name));
     }
   }
   j["energies"] = energies;
   j["energy_balance_error"] = number(f.balance_error);
-  j["kinetic_over_internal"] = {{"before_peak", number(f.kinetic_ratio)}, {"after_peak", number(f.kinetic_ratio_after)}};
+  j["kinetic_over_internal"] = {{"before_peak", number(f.kinetic_ratio)},
+                                {"after_peak", number(f.kinetic_ratio_after)}};
   j["load_support_imbalance"] = number(f.imbalance);
   j["material"] = {{"name", in.scene.material_name},
                    {"young_modulus", in.scene.parameters.young_modulus},
@@ -187,10 +202,10 @@ std::string summary_text(const SummaryInput& in) {
   j["frames"] = in.result.record.frames.size();
   j["wall_seconds"] = in.result.record.wall_seconds;
   j["stepping_seconds"] = in.result.record.stepping_seconds;
-  j["particle_steps_per_second"] = in.result.record.stepping_seconds > 0.0
-                                       ? Json(static_cast<double>(p.count) * static_cast<double>(in.run.steps()) /
-                                              in.result.record.stepping_seconds)
-                                       : Json(nullptr);
+  j["particle_steps_per_second"] =
+      in.result.record.stepping_seconds > 0.0
+          ? Json(static_cast<double>(p.count) * static_cast<double>(in.run.steps()) / in.result.record.stepping_seconds)
+          : Json(nullptr);
   return j.dump(2) + "\n";
 }
 

@@ -104,7 +104,8 @@ class VtuReader {
     cloud.data = arrays("<PointData", "</PointData>");
     if (cloud.points.size() != 3 * *points) fail("the array of points is not as long as declared");
     for (const PointData& d : cloud.data) {
-      if (d.values.size() != *points * static_cast<std::size_t>(d.components)) fail("the array \"" + d.name + "\" has a wrong length");
+      if (d.values.size() != *points * static_cast<std::size_t>(d.components))
+        fail("the array \"" + d.name + "\" has a wrong length");
     }
     return cloud;
   }
@@ -220,7 +221,8 @@ PointCloud read_legacy(std::string_view text, const std::string& file) {
   }
   if (cloud.points.empty()) fail("no points");
   for (const PointData& d : cloud.data) {
-    if (d.values.size() != cloud.size() * static_cast<std::size_t>(d.components)) fail("the array \"" + d.name + "\" has a wrong length");
+    if (d.values.size() != cloud.size() * static_cast<std::size_t>(d.components))
+      fail("the array \"" + d.name + "\" has a wrong length");
   }
   return cloud;
 }

@@ -50,11 +50,12 @@ const PointData* PointCloud::find(const std::string& name) const {
 void write_vtu(const std::filesystem::path& file, const PointCloud& cloud) {
   Appended appended;
   const std::size_t n = cloud.size();
-  std::string xml = "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
-                    "header_type=\"UInt64\">\n<UnstructuredGrid>\n<FieldData>\n"
-                    "<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">" +
-                    io::exact(cloud.time) + "</DataArray>\n</FieldData>\n<Piece NumberOfPoints=\"" + std::to_string(n) +
-                    "\" NumberOfCells=\"" + std::to_string(n) + "\">\n<PointData>\n";
+  std::string xml =
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
+      "header_type=\"UInt64\">\n<UnstructuredGrid>\n<FieldData>\n"
+      "<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">" +
+      io::exact(cloud.time) + "</DataArray>\n</FieldData>\n<Piece NumberOfPoints=\"" + std::to_string(n) +
+      "\" NumberOfCells=\"" + std::to_string(n) + "\">\n<PointData>\n";
   for (const PointData& d : cloud.data) {
     xml += d.single ? array("Float32", d.name, d.components, appended.add<float>(d.values))
                     : array("Float64", d.name, d.components, appended.add<double>(d.values));
@@ -75,7 +76,9 @@ void write_vtu(const std::filesystem::path& file, const PointCloud& cloud) {
 }
 
 void write_pvd(const std::filesystem::path& file, const std::vector<Frame>& frames) {
-  std::string xml = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n<Collection>\n";
+  std::string xml =
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" "
+      "byte_order=\"LittleEndian\">\n<Collection>\n";
   for (const Frame& f : frames) {
     xml += "<DataSet timestep=\"" + io::exact(f.time) + "\" part=\"0\" file=\"" + f.file + "\"/>\n";
   }

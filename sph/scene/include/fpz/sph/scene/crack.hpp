@@ -10,8 +10,8 @@ namespace fpz::sph {
 /// A particle of the specimen in the undeformed body.
 struct Spot {
   Point at = Point::Zero();
-  double volume = 0.0;  ///< m^2
-  double damage = 0.0;  ///< D, 0 to 1
+  double volume = 0.0;             ///< m^2
+  double damage = 0.0;             ///< D, 0 to 1
   Point normal = Point(1.0, 0.0);  ///< of the crack plane, unit
 };
 
@@ -28,7 +28,8 @@ struct CrackPath {
   std::vector<double> damage;
   [[nodiscard]] double length() const;
 };
-[[nodiscard]] std::vector<CrackPath> crack_paths(const std::vector<Spot>& spots, double spacing, double threshold = 0.5);
+[[nodiscard]] std::vector<CrackPath> crack_paths(const std::vector<Spot>& spots, double spacing,
+                                                 double threshold = 0.5);
 
 /// Areas of the pieces into which particles with a damage above `threshold`, and notches, divide the specimen; largest
 /// first, m^2.

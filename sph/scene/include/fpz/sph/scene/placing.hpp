@@ -30,9 +30,9 @@ struct Pattern {
 
 /// A roller or platen: columns of particles on the surface.
 struct Platen {
-  Point at = Point::Zero();          ///< on the surface
-  Point direction = Point::Zero();   ///< outward, any length but 0
-  double width = 0.0;                ///< m; at least one column
+  Point at = Point::Zero();         ///< on the surface
+  Point direction = Point::Zero();  ///< outward, any length but 0
+  double width = 0.0;               ///< m; at least one column
   int layers = 3;
   bool follow_surface = true;  ///< every column begins on the surface; else all where the outermost does
 };

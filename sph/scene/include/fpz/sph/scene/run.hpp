@@ -25,8 +25,8 @@ struct RunRequest {
   std::filesystem::path folder;
   bool force = false;
   bool resume = false;
-  int threads = 0;             ///< 0: as the scene says
-  long long most_steps = 0;    ///< stop after so many steps of this process, with a checkpoint; 0: no limit
+  int threads = 0;           ///< 0: as the scene says
+  long long most_steps = 0;  ///< stop after so many steps of this process, with a checkpoint; 0: no limit
   const volatile std::sig_atomic_t* interrupt = nullptr;  ///< not 0: stop with a checkpoint
   std::function<void(const Progress&)> progress;
 };
@@ -50,7 +50,7 @@ struct RunResult {
   std::string reason;  ///< which rule ended it, or what failed
   RunRecord record;
   std::vector<std::string> warnings;
-  std::filesystem::path crack_file;
+  std::string report;  ///< the main figures, for a person
 };
 
 /// Files of a run in its folder.

@@ -59,18 +59,19 @@ using Gauge = std::variant<ForceGauge, DisplacementGauge, StressGauge>;
 
 /// When a run ends. The time always counts; the others when they are given.
 struct StopRules {
-  double time = 0.0;                  ///< s
-  std::optional<double> deflection;   ///< m
-  std::optional<double> load_below;   ///< fraction of the peak, once something has cracked
-  bool separation = false;            ///< the specimen is in two pieces
+  double time = 0.0;                 ///< s
+  std::optional<double> deflection;  ///< m
+  std::optional<double> load_below;  ///< fraction of the peak, once something has cracked
+  bool separation = false;           ///< the specimen is in two pieces
 };
 
 struct OutputRules {
-  int history_rows = 1000;           ///< over the whole time
-  int frames = 40;                   ///< VTU files over the whole time; 0: none but those at `frames_at`
-  std::vector<double> frames_at;     ///< deflections, m, at which one more is written
-  std::vector<double> picture_loads = {1.0, -0.7, -0.4, -0.1};  ///< moments drawn: fractions of the peak load, negative after it
-  double checkpoint_seconds = 60.0;  ///< of wall time; 0: none
+  int history_rows = 1000;        ///< over the whole time
+  int frames = 40;                ///< VTU files over the whole time; 0: none but those at `frames_at`
+  std::vector<double> frames_at;  ///< deflections, m, at which one more is written
+  std::vector<double> picture_loads = {1.0, -0.7, -0.4,
+                                       -0.1};  ///< moments drawn: fractions of the peak load, negative after it
+  double checkpoint_seconds = 60.0;            ///< of wall time; 0: none
   bool pictures = true;
 };
 
