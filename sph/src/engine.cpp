@@ -42,12 +42,11 @@ int team_size(int requested) {
 }
 
 template <int Dim>
-Engine<Dim>::Engine(const Scene<Dim>& s) : scene(s) {
+Engine<Dim>::Engine(const Scene<Dim>& s, double time_step) : scene(s), dt(time_step) {
   const Options<Dim>& o = scene.options;
   material = make_material(scene.parameters, scene.setting);
   update_options.method = o.method;
   h = o.smoothing_ratio * scene.arrangement.spacing;
-  dt = fpz::sph::time_step(scene);
   passes = choose_passes(o);
   place_particles();
   connect_groups();
@@ -202,7 +201,7 @@ void Engine<Dim>::remake_bonds() {
   point_view();
 }
 
-template Engine<2>::Engine(const Scene<2>&);
+template Engine<2>::Engine(const Scene<2>&, double);
 template void Engine<2>::place_particles();
 template void Engine<2>::connect_groups();
 template void Engine<2>::point_view();

@@ -53,7 +53,8 @@ struct Engine {
   const Passes<Dim>* passes = nullptr;
   View<Dim> view;
 
-  explicit Engine(const Scene<Dim>& s);
+  /// A run with the given time step, s.
+  Engine(const Scene<Dim>& s, double time_step);
   Engine(const Engine&) = delete;
   Engine& operator=(const Engine&) = delete;
 
@@ -77,6 +78,9 @@ struct Engine {
   /// updated: lists from the current positions.
   void rebuild_lists();
   [[nodiscard]] bool lists_outdated() const;
+
+  /// Largest angular frequency of the elastic body with its prescribed components held, 1/s. Leaves the state unusable.
+  [[nodiscard]] double largest_frequency();
 
   /// The first half step of the velocity (eq 23).
   void start();

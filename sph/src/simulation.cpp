@@ -1,5 +1,6 @@
 #include "fpz/sph/simulation.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -8,27 +9,31 @@
 namespace fpz::sph {
 
 template <int Dim>
-double time_step(const Scene<Dim>& s) {
+double courant_step(const Scene<Dim>& s) {
   const double sound = std::sqrt(s.parameters.young_modulus / s.parameters.density);
   return s.options.courant * s.options.smoothing_ratio * s.arrangement.spacing / sound *
          std::sqrt(s.options.mass_scale);
 }
 
+template <int Dim>
+double time_step(const Scene<Dim>& s) {
+  return std::min(courant_step(s), stability_margin * stability_limit(s));
+}
+
 namespace {
 
 template <int Dim>
-const Scene<Dim>& checked(const Scene<Dim>& scene) {
-  const std::vector<std::string> all = problems(scene);
-  if (all.empty()) return scene;
+detail::Engine<Dim>* make_engine(const Scene<Dim>& scene) {
   std::string text;
-  for (const std::string& s : all) text += (text.empty() ? "" : "\n") + s;
-  throw std::invalid_argument(text);
+  for (const std::string& problem : problems(scene)) text += (text.empty() ? "" : "\n") + problem;
+  if (!text.empty()) throw std::invalid_argument(text);
+  return new detail::Engine<Dim>(scene, time_step(scene));
 }
 
 }  // namespace
 
 template <int Dim>
-Simulation<Dim>::Simulation(const Scene<Dim>& scene) : engine_(new detail::Engine<Dim>(checked(scene))) {}
+Simulation<Dim>::Simulation(const Scene<Dim>& scene) : engine_(make_engine(scene)) {}
 template <int Dim>
 Simulation<Dim>::~Simulation() {
   delete engine_;
@@ -129,6 +134,7 @@ Energies Simulation<Dim>::energies() const {
   return sum;
 }
 
+template double courant_step<2>(const Scene<2>&);
 template double time_step<2>(const Scene<2>&);
 template class Simulation<2>;
 

@@ -42,7 +42,7 @@ struct Options {
   MomentumForm momentum = MomentumForm::adjoint;
   Kernel kernel = Kernel::cubic_spline;
   double smoothing_ratio = 1.2;  ///< h / spacing
-  double courant = 0.5;          ///< time step in units of h/sqrt(E/rho), eq 32
+  double courant = 0.5;          ///< largest time step in units of h/sqrt(E/rho), eq 32 (see time_step())
   RveLength rve_length;
   Method method = Method::implicit;  ///< integrator of cracked particles
   double viscosity_alpha = 0.5;      ///< updated: linear artificial viscosity

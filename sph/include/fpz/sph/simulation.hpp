@@ -35,7 +35,19 @@ struct Scene {
 template <int Dim>
 [[nodiscard]] std::vector<std::string> problems(const Scene<Dim>& scene);
 
-/// The time step that eq 32 gives, s: courant * h/sqrt(E/rho), times sqrt(mass_scale).
+/// The time step of eq 32, s: courant * h/sqrt(E/rho), times sqrt(mass_scale).
+template <int Dim>
+[[nodiscard]] double courant_step(const Scene<Dim>& scene);
+
+/// The longest stable time step of the elastic body of this arrangement, s: 2/omega with the largest frequency omega found
+/// by power iteration (some hundred times the work of a step). Viscosity and local damping shorten it further.
+template <int Dim>
+[[nodiscard]] double stability_limit(const Scene<Dim>& scene);
+
+/// Part of the measured limit that a run uses at most.
+inline constexpr double stability_margin = 0.9;
+
+/// The time step of a run, s: eq 32, or stability_margin * stability_limit() where that is shorter.
 template <int Dim>
 [[nodiscard]] double time_step(const Scene<Dim>& scene);
 
