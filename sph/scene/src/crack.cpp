@@ -141,19 +141,22 @@ CrackPath smooth(const std::vector<Point>& centres, const std::vector<Spot>& spo
 
 }  // namespace
 
-double opened_length(const std::vector<Spot>& all, double spacing, double reach) {
-  const std::vector<Spot> spots = cracked(all, 0.0);
+double opened_length(const std::vector<Spot>& spots, double spacing, double reach) {
   const std::vector<Point> points = places(spots);
   const PointGrid grid(points, spacing);
   double length = 0.0;
   for (std::size_t i = 0; i < spots.size(); ++i) {
-    double sum = 0.0, largest = 0.0;
-    strip(spots, grid, i, spacing, reach, [&](std::size_t j, double, double weight) {
-      sum += spots[j].volume * spots[j].damage * weight;
-      largest = std::max(largest, spots[j].damage);
+    if (spots[i].damage <= 0.0) continue;
+    double sum = 0.0, largest = 0.0, material = 0.0;
+    strip(spots, grid, i, spacing, reach, [&](std::size_t j, double off, double weight) {
+      const Spot& s = spots[j];
+      sum += s.volume * s.damage * weight;
+      largest = std::max(largest, s.damage);
+      material += s.volume * weight * (1.0 - std::abs(off) / (reach * spacing));
     });
-    // The hat has the integral `spacing`.
-    length += spots[i].volume * spots[i].damage * largest / sum * spacing;
+    // The width of the strip as the particles sample it; narrower at the ends of a crack on the surface.
+    const double width = material / (reach * spacing);
+    length += spots[i].volume * spots[i].damage * largest / sum * width;
   }
   return length;
 }

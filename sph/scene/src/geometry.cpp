@@ -167,10 +167,11 @@ double area(const Body& body) {
   double removed = 0.0;
   constexpr int lines = 100'000;
   for (std::size_t m = 0; m < missing.size(); ++m) {
-    const auto [low, high] = extent(missing[m]);
-    const double step = (high[1] - low[1]) / lines;
-    for (int k = 0; k < lines; ++k) {
-      const double y = low[1] + (k + 0.5) * step;
+    const double low = std::max(extent(missing[m]).first[1], extent(body.shape).first[1]);
+    const double high = std::min(extent(missing[m]).second[1], extent(body.shape).second[1]);
+    const double step = (high - low) / lines;
+    for (int k = 0; k < lines && step > 0.0; ++k) {
+      const double y = low + (k + 0.5) * step;
       const Intervals shape = chord(body.shape, y);
       Intervals rest = minus(shape, minus(shape, chord(missing[m], y)));
       for (std::size_t e = 0; e < m; ++e) rest = minus(rest, chord(missing[e], y));

@@ -9,7 +9,7 @@ namespace {
 constexpr double mm = 1e3;
 constexpr double pixels_per_pointsize = 6.0;  // a square of gnuplot's cairo terminals at pointsize 1
 constexpr double width = 1000.0;              // of the picture, pixels
-constexpr double side = 70.0, top = 34.0, bottom = 46.0, legend = 40.0;
+constexpr double side = 70.0, top = 36.0, bottom = 30.0, foot = 70.0;
 
 struct Box {
   Point low = Point::Constant(1e300), high = Point::Constant(-1e300);
@@ -39,16 +39,16 @@ io::Picture map_picture(const std::string& name, const std::vector<ParticleMap>&
   const int rows = (static_cast<int>(maps.size()) + columns - 1) / columns;
   const double scale = ((width - side * columns - 20.0) / columns) / extent[0];  // pixels per metre
   const double panel_width = extent[0] * scale, panel_height = extent[1] * scale;
-  const double height = legend + rows * (panel_height + top + bottom);
+  const double height = foot + rows * (panel_height + top + bottom);
   io::Picture picture(name, static_cast<int>(width), static_cast<int>(std::lround(height)));
   std::vector<io::Series> key;
   for (const ColourClass& c : classes) key.push_back({c.title, "points pt 5 ps 1.6 lc rgb '" + c.colour + "'", {}});
-  picture.legend(key, {0.0, 1.0, 0.0, legend / height}, legend_columns);
+  picture.legend(key, {0.0, 1.0, 0.0, 0.5 * foot / height}, legend_columns);
   for (std::size_t k = 0; k < maps.size(); ++k) {
     const ParticleMap& m = maps[k];
     io::Panel panel;
     panel.title = m.title;
-    panel.x_label = "x, mm";
+    if (k + static_cast<std::size_t>(columns) >= maps.size()) panel.x_label = "x, mm";
     panel.y_label = "y, mm";
     panel.x = {mm * box.low[0], mm * box.high[0]};
     panel.y = {mm * box.low[1], mm * box.high[1]};

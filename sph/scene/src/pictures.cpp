@@ -38,6 +38,16 @@ std::string text_of(double x, int digits = 3) {
   return s.str();
 }
 
+/// A name as gnuplot shows it: an underscore is no subscript.
+std::string plain(const std::string& name) {
+  std::string text;
+  for (const char c : name) {
+    if (std::string_view("_^{}@&~\\").find(c) != std::string_view::npos) text += '\\';
+    text += c;
+  }
+  return text;
+}
+
 Series curve(const io::Table& t, const char* x, double x_scale, const std::string& y, double y_scale,
              const std::string& title, const std::string& style) {
   Series s{title, style, {}};
@@ -225,7 +235,7 @@ PictureOutcome draw_run(const fs::path& folder, bool force) {
   const SceneFile scene = read_scene(files.scene);
   const std::vector<Frame> frames = read_pvd(folder / "frames.pvd");
   if (without_gnuplot(outcome)) return outcome;
-  std::vector<Picture> pictures = {load_deflection(t, scene.name), energies(t, scene.name)};
+  std::vector<Picture> pictures = {load_deflection(t, plain(scene.name)), energies(t, plain(scene.name))};
   if (!frames.empty()) {
     const auto maps = damage_maps(folder, frames, t, scene.output.picture_loads);
     if (!maps.empty()) pictures.push_back(detail::map_picture("damage", maps, damage_classes(), scene.spacing, 7));
@@ -242,10 +252,10 @@ PictureOutcome draw_scene(const SceneFile& scene, const Specimen& specimen, cons
   const char* colours[] = {"#C0392B", "#1F5FA8", "#2E8B57", "#D68910", "#8E44AD", "#16A0A0"};
   std::vector<ColourClass> classes = {{"specimen", "#D8D8D2"}};
   for (std::size_t b = 0; b < scene.boundaries.size(); ++b)
-    classes.push_back({scene.boundaries[b].name, colours[b % 6]});
+    classes.push_back({plain(scene.boundaries[b].name), colours[b % 6]});
   classes.push_back({"gauges", "#202020"});
   const Arrangement<2>& a = specimen.setup.arrangement;
-  ParticleMap map{scene.name + ": " + std::to_string(a.size()) + " particles", a.position, {}, {}};
+  ParticleMap map{plain(scene.name) + ": " + std::to_string(a.size()) + " particles", a.position, {}, {}};
   for (const int g : a.group) map.colour.push_back(static_cast<std::size_t>(g + 1));
   for (const auto& points : outlines(scene.body)) map.lines.push_back(outline(points, "lines lw 1.5 lc rgb '#202020'"));
   std::vector<Point> gauges;

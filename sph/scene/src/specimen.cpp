@@ -1,9 +1,12 @@
 #include "fpz/sph/scene/specimen.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <thread>
 
 #include "fpz/io/input_error.hpp"
+#include "point_grid.hpp"
 
 namespace fpz::sph {
 namespace {
@@ -32,6 +35,22 @@ Arrangement<2> place(const SceneFile& scene) {
     }
   }
   return a;
+}
+
+/// Whether the engine keeps particles on opposite sides of a cut apart.
+template <class A>
+constexpr bool has_cuts(const A& /*arrangement*/) {
+  return requires(A a) { a.cuts; };
+}
+
+template <class A>
+void pass_cuts(A& a, const std::vector<Notch>& notches) {
+  if constexpr (requires { a.cuts; }) {
+    for (const Notch& n : notches) {
+      const Point behind = n.mouth - (n.width + a.spacing) * along(n);
+      a.cuts.push_back({{behind, n.tip}});
+    }
+  }
 }
 
 std::vector<std::size_t> particles_of(const Site& site, const SceneFile& scene, const Arrangement<2>& a,
@@ -120,9 +139,30 @@ Mat<double, 2, 2> stress_in_space(const Simulation<2>& run, std::size_t i, bool 
   return q * to_matrix<double, 2>(run.particles().stress_of(i)) * q.transpose();
 }
 
+/// Threads that pay off: below some thousand particles each, waiting for each other costs more than it gains.
+int worthwhile_threads(std::size_t particles) {
+  const auto cores = static_cast<std::size_t>(std::max(1U, std::thread::hardware_concurrency()));
+  return static_cast<int>(std::clamp(particles / 2000, std::size_t{1}, cores));
+}
+
 bool is_updated(const Specimen& s) { return s.setup.options.configuration == Configuration::updated; }
 
 }  // namespace
+
+std::size_t bridging_bonds(const SceneFile& scene, const Specimen& specimen) {
+  const Arrangement<2>& a = specimen.setup.arrangement;
+  if (scene.body.notches.empty() || has_cuts(a)) return 0;
+  const double reach = kernel_support * scene.options.smoothing_ratio * scene.spacing;
+  const detail::PointGrid grid(a.position, reach);
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    grid.near(a.position[i], reach, [&](std::size_t j) {
+      const auto crossed = [&](const Notch& n) { return crosses(n, a.position[i], a.position[j]); };
+      if (i < j && std::any_of(scene.body.notches.begin(), scene.body.notches.end(), crossed)) ++count;
+    });
+  }
+  return count;
+}
 
 Specimen make_specimen(const SceneFile& scene) {
   Specimen s;
@@ -131,6 +171,7 @@ Specimen make_specimen(const SceneFile& scene) {
   } catch (const std::invalid_argument& e) {
     fail(scene, e.what());
   }
+  pass_cuts(s.setup.arrangement, scene.body.notches);
   const Arrangement<2>& a = s.setup.arrangement;
   for (std::size_t i = 0; i < a.size(); ++i) {
     if (a.group[i] == Arrangement<2>::specimen) s.area += a.volume[i];
@@ -145,6 +186,7 @@ Specimen make_specimen(const SceneFile& scene) {
   s.setup.parameters = scene.parameters;
   s.setup.setting = scene.setting;
   s.setup.options = scene.options;
+  if (scene.options.threads == 0) s.setup.options.threads = worthwhile_threads(a.size());
   const std::vector<std::string> wrong = problems(s.setup);
   if (!wrong.empty()) {
     std::string text;

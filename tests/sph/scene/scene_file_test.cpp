@@ -111,13 +111,24 @@ TEST(SceneFile, GaugesThatFindNothingAreRefused) {
 }
 
 TEST(SceneFile, NotchOpeningLooksAtBothFaces) {
-  const Specimen s = make_specimen(read_scene(scenes / "beam_3pb.json"));
+  const Specimen s = make_specimen(read_scene(scenes / "beam_3pb.json", {"notches[0].width=0"}));
   const BoundGauge& cmod = s.gauges.at("cmod");
   ASSERT_EQ(cmod.of.size(), 1u);
   ASSERT_EQ(cmod.relative_to.at(0).size(), 1u);
   const Point left = s.setup.arrangement.position[cmod.of[0]],
               right = s.setup.arrangement.position[cmod.relative_to[0][0]];
   EXPECT_NEAR((left - right).dot(cmod.direction), 0.004, 1e-12);
+}
+
+TEST(SceneFile, BridgedNotchesAreNoticed) {
+  const SceneFile narrow = read_scene(scenes / "beam_3pb.json", {"notches[0].width=0"});
+  const SceneFile wide = read_scene(scenes / "beam_3pb.json", {"notches[0].width=0.008"});
+  EXPECT_EQ(bridging_bonds(wide, make_specimen(wide)), 0u);
+  // Either the engine keeps the faces apart or it is said that they are not.
+  constexpr bool cuts = []<class A>(const A*) {
+    return requires(A a) { a.cuts; };
+  }(static_cast<Arrangement<2>*>(nullptr));
+  EXPECT_EQ(bridging_bonds(narrow, make_specimen(narrow)) > 0u, !cuts);
 }
 
 }  // namespace
