@@ -26,14 +26,15 @@ std::vector<Spot> cracked(const std::vector<Spot>& spots, double threshold) {
 }
 
 /// Calls f(j, distance along the normal, weight) for the particles of the strip through i: weight falls from 1 to 0
-/// within one spacing to the side.
+/// within `side` spacings to the side.
 template <class F>
-void strip(const std::vector<Spot>& spots, const PointGrid& grid, std::size_t i, double spacing, double reach, F&& f) {
+void strip(const std::vector<Spot>& spots, const PointGrid& grid, std::size_t i, double spacing, double side,
+           double reach, F&& f) {
   const Point n = spots[i].normal;
-  grid.near(spots[i].at, (reach + 1.0) * spacing, [&](std::size_t j) {
+  grid.near(spots[i].at, (reach + side) * spacing, [&](std::size_t j) {
     const Point d = spots[j].at - spots[i].at;
     const double off = d.dot(n);
-    const double weight = 1.0 - std::abs(n[0] * d[1] - n[1] * d[0]) / spacing;
+    const double weight = 1.0 - std::abs(n[0] * d[1] - n[1] * d[0]) / (side * spacing);
     if (weight > 0.0 && std::abs(off) <= reach * spacing) f(j, off, weight);
   });
 }
@@ -141,21 +142,24 @@ CrackPath smooth(const std::vector<Point>& centres, const std::vector<Spot>& spo
 
 }  // namespace
 
-double opened_length(const std::vector<Spot>& spots, double spacing, double reach) {
+double opened_length(const std::vector<Spot>& spots, double spacing) {
+  constexpr double side = 2.0;    // spacings: wide enough that few particles in a strip make no error
+  constexpr double reach = 4.5;   // spacings; bands are two to four columns wide
+  constexpr double sample = 4.0;  // a whole number: exact on a lattice
   const std::vector<Point> points = places(spots);
   const PointGrid grid(points, spacing);
   double length = 0.0;
   for (std::size_t i = 0; i < spots.size(); ++i) {
     if (spots[i].damage <= 0.0) continue;
     double sum = 0.0, largest = 0.0, material = 0.0;
-    strip(spots, grid, i, spacing, reach, [&](std::size_t j, double off, double weight) {
+    strip(spots, grid, i, spacing, side, reach, [&](std::size_t j, double off, double weight) {
       const Spot& s = spots[j];
       sum += s.volume * s.damage * weight;
       largest = std::max(largest, s.damage);
-      material += s.volume * weight * (1.0 - std::abs(off) / (reach * spacing));
+      material += s.volume * weight * std::max(0.0, 1.0 - std::abs(off) / (sample * spacing));
     });
     // The width of the strip as the particles sample it; narrower at the ends of a crack on the surface.
-    const double width = material / (reach * spacing);
+    const double width = material / (sample * spacing);
     length += spots[i].volume * spots[i].damage * largest / sum * width;
   }
   return length;
@@ -175,7 +179,7 @@ std::vector<CrackPath> crack_paths(const std::vector<Spot>& all, double spacing,
   std::vector<Point> centres = points;
   for (std::size_t i = 0; i < spots.size(); ++i) {
     double moment = 0.0, sum = 0.0;
-    strip(spots, grid, i, spacing, wide, [&](std::size_t j, double off, double weight) {
+    strip(spots, grid, i, spacing, 1.0, wide, [&](std::size_t j, double off, double weight) {
       moment += weight * spots[j].damage * off;
       sum += weight * spots[j].damage;
     });

@@ -16,11 +16,12 @@ struct Spot {
 };
 
 /// Length of all cracks, m: the projection of the band of cracked particles on the crack. Through each particle passes
-/// a strip one spacing wide (a hat function along the crack), along its normal, `reach` spacings long on either side;
-/// all cracked particles in the strip make up one crack, which counts with the largest damage among them. So a fully
-/// open crack counts with its length however many columns it takes, and one that is still opening with D of it, because
-/// the cohesive law has then dissipated the part D of G (mode I).
-[[nodiscard]] double opened_length(const std::vector<Spot>& spots, double spacing, double reach = 3.0);
+/// a strip along its normal, two spacings to either side along the crack (a hat function) and 4.5 spacings long on
+/// either side; all cracked particles in the strip make up one crack, which counts with the largest damage among them.
+/// So a fully open crack counts with its length however many columns it takes (within 4 % in any direction of a
+/// lattice), and one that is still opening with D of it, because the cohesive law has then dissipated the part D of G
+/// (mode I).
+[[nodiscard]] double opened_length(const std::vector<Spot>& spots, double spacing);
 
 /// Middle lines of the bands of particles with a damage of at least `threshold`, longest first; each from end to end.
 struct CrackPath {
