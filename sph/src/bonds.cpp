@@ -14,7 +14,8 @@ template <int Dim>
 std::uint64_t cell_key(const std::array<std::int64_t, 3>& cell) {
   constexpr std::int64_t offset = std::int64_t{1} << 20;
   std::uint64_t key = 0;
-  for (auto c = static_cast<std::size_t>(Dim); c-- > 0;) key = (key << 21) | static_cast<std::uint64_t>(cell[c] + offset);
+  for (auto c = static_cast<std::size_t>(Dim); c-- > 0;)
+    key = (key << 21) | static_cast<std::uint64_t>(cell[c] + offset);
   return key;
 }
 

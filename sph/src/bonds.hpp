@@ -12,8 +12,8 @@ namespace fpz::sph::detail {
 /// Neighbours of every particle in ascending order, without itself.
 using NeighbourLists = std::vector<std::vector<int>>;
 
-/// All pairs closer than `reach`, by a cell list over sorted cell keys (memory does not grow with the empty space between
-/// pieces). Non-finite positions find nothing.
+/// All pairs closer than `reach`, by a cell list over sorted cell keys (memory does not grow with the empty space
+/// between pieces). Non-finite positions find nothing.
 template <int Dim>
 [[nodiscard]] NeighbourLists find_neighbours(const Fields<Dim>& position, std::size_t count, double reach);
 

@@ -56,8 +56,8 @@ Outcome Engine<Dim>::update_flagged(Index first, Index last) {
     p.stress[1][i] = s.yy;
     p.stress[2][i] = s.xy;
     const bool plain = updated() && scene.options.momentum == MomentumForm::paper;
-    const Symmetric l = plain ? Symmetric{1.0, 1.0, 0.0}
-                              : Symmetric{p.correction[0][i], p.correction[1][i], p.correction[2][i]};
+    const Symmetric l =
+        plain ? Symmetric{1.0, 1.0, 0.0} : Symmetric{p.correction[0][i], p.correction[1][i], p.correction[2][i]};
     const Full t = updated() ? flux_of(1.0, 0.0, s, l) : flux_of(cosine, sine, s, l);
     p.flux[0][i] = t.xx;
     p.flux[1][i] = t.xy;

@@ -89,8 +89,8 @@ void gradient_reference(const V& v, Index first, Index last) {
   }
 }
 
-/// Adds the work of dissipating forces as the leap-frog does it: half of a force's work with the velocity before it, half
-/// with the velocity after it, the latter counted when that motion has happened.
+/// Adds the work of dissipating forces as the leap-frog does it: half of a force's work with the velocity before it,
+/// half with the velocity after it, the latter counted when that motion has happened.
 FPZ_LANE void account(double* total, double* next, Index b, const double (&before)[n], const double (&after)[n]) {
   total[b] += next[b] + lane_sum(before);
   next[b] = lane_sum(after);
@@ -160,7 +160,7 @@ void gradient_updated(const V& v, Index first, Index last) {
   const double* volume = v.volume;
   for (Index b = first; b < last; ++b) {
     const Index o = b * n;
-    double mxx[n] = {}, myy[n] = {}, mxy[n] = {};            // moment matrix of eq 18, times V_i
+    double mxx[n] = {}, myy[n] = {}, mxy[n] = {};           // moment matrix of eq 18, times V_i
     double xx[n] = {}, xy[n] = {}, yx[n] = {}, yy[n] = {};  // velocity gradient before correction, times V_i
     for (int k = v.column[b]; k < v.column[b + 1]; ++k) {
       const Index m = Index{k} * n;
@@ -269,8 +269,7 @@ void force_updated(const V& v, Index first, Index last) {
         const double approach = (ux[j[l]] - ux[i]) * dx + (uy[j[l]] - uy[i]) * dy;
         const double rate = h * (approach < 0.0 ? approach : 0.0) / (dx * dx + dy * dy + 0.01 * h * h);
         const double harmonic = density[i] * density[j[l]] / (density[i] + density[j[l]]);
-        const double pressure =
-            2.0 * harmonic * rate * (v.viscosity_beta * rate - v.viscosity_alpha * v.sound_speed);
+        const double pressure = 2.0 * harmonic * rate * (v.viscosity_beta * rate - v.viscosity_alpha * v.sound_speed);
         vx[l] -= pressure * gx;
         vy[l] -= pressure * gy;
         const double f = closeness[l];

@@ -57,14 +57,17 @@ void check_arrangement(const Scene<Dim>& s, Messages& m) {
   m.require(a.size() > 0, "arrangement: has no particles");
   m.require(a.volume.size() == a.size() && a.group.size() == a.size(),
             "arrangement: position, volume and group must have one length");
-  m.require(s.velocity.empty() || s.velocity.size() == a.size(), "velocity: must be empty or have one entry per particle");
+  m.require(s.velocity.empty() || s.velocity.size() == a.size(),
+            "velocity: must be empty or have one entry per particle");
   if (a.volume.size() != a.size() || a.group.size() != a.size()) return;
   const auto groups = static_cast<int>(s.groups.size());
   for (std::size_t i = 0; i < a.size(); ++i) {
     const std::string who = "particle " + std::to_string(i) + ": ";
     if (!is_finite(a.position[i])) m.require(false, who + "position is not finite");
-    if (!(std::isfinite(a.volume[i]) && a.volume[i] > 0.0)) m.require(false, who + number("volume", a.volume[i], "positive"));
-    if (a.group[i] < -1 || a.group[i] >= groups) m.require(false, who + number("group", a.group[i], "-1 or a group's index"));
+    if (!(std::isfinite(a.volume[i]) && a.volume[i] > 0.0))
+      m.require(false, who + number("volume", a.volume[i], "positive"));
+    if (a.group[i] < -1 || a.group[i] >= groups)
+      m.require(false, who + number("group", a.group[i], "-1 or a group's index"));
   }
 }
 
@@ -115,7 +118,8 @@ std::string Outcome::message() const {
       break;
     case Failure::too_fast:
       s << "it moves at " << speed
-        << " m/s, faster than sound: the run explodes; likely the time step is too long (courant) or the loading too fast.";
+        << " m/s, faster than sound: the run explodes; likely the time step is too long (courant) or the loading too "
+           "fast.";
       break;
   }
   return s.str();

@@ -120,8 +120,7 @@ Energies Simulation<Dim>::energies() const {
       const double trace = s.template head<Dim>().sum();
       const double lambda = m.bulk.lambda;
       const double mu = m.bulk.mu;
-      sum.elastic +=
-          volume * 0.25 / mu * (double_dot<Dim>(s, s) - lambda / (Dim * lambda + 2.0 * mu) * trace * trace);
+      sum.elastic += volume * 0.25 / mu * (double_dot<Dim>(s, s) - lambda / (Dim * lambda + 2.0 * mu) * trace * trace);
     }
     for (std::size_t c = 0; c < p.start.size(); ++c) {
       sum.external += p.mass[i] * e.view.weight_scale * e.scene.options.gravity[static_cast<int>(c)] *

@@ -23,7 +23,7 @@ std::uint64_t fnv(std::span<const unsigned char> bytes) {
 class Writer {
  public:
   template <class T>
-    requires std::is_arithmetic_v<T>
+  requires std::is_arithmetic_v<T>
   void operator()(T& x) {
     const std::size_t at = bytes.size();
     bytes.resize(at + sizeof(T));
@@ -42,7 +42,7 @@ class Reader {
  public:
   explicit Reader(std::span<const unsigned char> b) : bytes_(b) {}
   template <class T>
-    requires std::is_arithmetic_v<T>
+  requires std::is_arithmetic_v<T>
   void operator()(T& x) {
     if (bytes_.size() - at_ < sizeof(T)) throw std::runtime_error("snapshot: too short");
     std::memcpy(&x, bytes_.data() + at_, sizeof(T));
@@ -100,11 +100,27 @@ std::uint64_t fingerprint(Scene<Dim> s) {
     put(x);
   }
   const Parameters& p = s.parameters;
-  for (const double x :
-       {o.smoothing_ratio, o.courant, o.rve_length.value, o.viscosity_alpha, o.viscosity_beta, o.artificial_stress, o.skin,
-        o.damping, o.mass_scale, o.release_integrity, p.young_modulus, p.poisson_ratio, p.density, p.tensile_strength,
-        p.cohesion, p.friction_angle_deg, p.dilation_angle_deg, p.delta0, p.normal_stiffness, p.shear_stiffness,
-        s.arrangement.spacing}) {
+  for (const double x : {o.smoothing_ratio,
+                         o.courant,
+                         o.rve_length.value,
+                         o.viscosity_alpha,
+                         o.viscosity_beta,
+                         o.artificial_stress,
+                         o.skin,
+                         o.damping,
+                         o.mass_scale,
+                         o.release_integrity,
+                         p.young_modulus,
+                         p.poisson_ratio,
+                         p.density,
+                         p.tensile_strength,
+                         p.cohesion,
+                         p.friction_angle_deg,
+                         p.dilation_angle_deg,
+                         p.delta0,
+                         p.normal_stiffness,
+                         p.shear_stiffness,
+                         s.arrangement.spacing}) {
     put(x);
   }
   visit(w, o.gravity);

@@ -1,6 +1,6 @@
-// The stability limit of the leap-frog, measured on the very arrangement: 2/omega with omega the largest frequency of the
-// elastic body, by power iteration with the inner loops themselves. Eq 32 knows neither irregular particle distances nor
-// the large corrections at edges, which can shorten the limit several times.
+// The stability limit of the leap-frog, measured on the very arrangement: 2/omega with omega the largest frequency of
+// the elastic body, by power iteration with the inner loops themselves. Eq 32 knows neither irregular particle
+// distances nor the large corrections at edges, which can shorten the limit several times.
 #include <cmath>
 #include <random>
 

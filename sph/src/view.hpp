@@ -1,5 +1,5 @@
-// What the inner loops see: raw pointers into the arrays of a simulation, and constants. The loops are compiled once per
-// instruction set, so this header and theirs include nothing that could emit shared inline code.
+// What the inner loops see: raw pointers into the arrays of a simulation, and constants. The loops are compiled once
+// per instruction set, so this header and theirs include nothing that could emit shared inline code.
 #pragma once
 
 #include <cstddef>
@@ -47,7 +47,7 @@ struct View {
   unsigned char* bad = nullptr;
 
   // Constants.
-  double step = 0.0;  // s; of the kick: half at the start
+  double step = 0.0;                           // s; of the kick: half at the start
   double work_before = 0.0, work_after = 0.0;  // half a step each; before is zero at the start
   double lambda = 0.0, mu = 0.0;
   double sin_phi = 0.0, strength = 0.0, apex = 0.0;  // onset: strength = c0 cos(phi)

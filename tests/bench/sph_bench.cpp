@@ -19,9 +19,7 @@ constexpr int columns = 140;
 constexpr int rows = 50;
 constexpr double spacing = 1e-3;
 
-double seconds() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
+double seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 /// A bar pulled slowly at one end, far below its strength.
 Scene<2> specimen(const Options<2>& options) {
@@ -78,14 +76,16 @@ double lammps_rate() {
                        << "run 200\nrun 2000\n";
   double best = 0.0;
   for (int k = 0; k < 3; ++k) {
-    const std::string command = "OMP_NUM_THREADS=1 lmp -in " + input + " -log " + log + " -screen none > /dev/null 2>&1";
+    const std::string command =
+        "OMP_NUM_THREADS=1 lmp -in " + input + " -log " + log + " -screen none > /dev/null 2>&1";
     if (std::system(command.c_str()) != 0) return best;
     std::ifstream in(log);
     for (std::string line; std::getline(in, line);) {
       double time = 0.0;
       int steps = 0;
       long atoms = 0;
-      if (std::sscanf(line.c_str(), "Loop time of %lf on 1 procs for %d steps with %ld atoms", &time, &steps, &atoms) == 3 &&
+      if (std::sscanf(line.c_str(), "Loop time of %lf on 1 procs for %d steps with %ld atoms", &time, &steps, &atoms) ==
+              3 &&
           steps == 2000) {
         best = std::max(best, static_cast<double>(atoms) * steps / time);
       }

@@ -50,8 +50,8 @@ TEST(Conservation, EnergyOrderInTheReferenceConfiguration) {
   EXPECT_GT(std::log(coarse / fine) / std::log(4.0), 1.7);
 }
 
-/// Viscosity and artificial stress included. What remains is of the order of the strain (1e-3) times the elastic energy:
-/// the stress of the rate form has no exact potential.
+/// Viscosity and artificial stress included. What remains is of the order of the strain (1e-3) times the elastic
+/// energy: the stress of the rate form has no exact potential.
 TEST(Conservation, EnergyInTheUpdatedConfiguration) {
   EXPECT_LT(imbalance(Configuration::updated, 0.4), 1e-5);
   EXPECT_LT(imbalance(Configuration::updated, 0.1), 1e-5);
@@ -137,8 +137,8 @@ TEST(Conservation, RigidRotationMakesNoStress) {
     for (std::size_t i = 0; i < p.count; ++i) {
       const Vector arm = vec(p.start[0][i], p.start[1][i]) - centre;
       const double angle = omega * run.time();
-      const Vector turned = vec(std::cos(angle) * arm[0] - std::sin(angle) * arm[1],
-                                std::sin(angle) * arm[0] + std::cos(angle) * arm[1]);
+      const Vector turned =
+          vec(std::cos(angle) * arm[0] - std::sin(angle) * arm[1], std::sin(angle) * arm[0] + std::cos(angle) * arm[1]);
       EXPECT_LT((vec(p.position[0][i], p.position[1][i]) - centre - turned).norm(), 1e-5 * 8e-3);
       for (std::size_t k = 0; k < 3; ++k) EXPECT_LT(std::abs(p.stress[k][i]), scale);
     }

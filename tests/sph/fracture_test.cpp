@@ -85,15 +85,15 @@ TEST(Fracture, PairDissipatesTheFractureEnergy) {
   EXPECT_NEAR(e.fracture / (2.0 * exact), 1.0, 2e-3);  // two particles, each with its crack
 }
 
-/// A bar whose two middle columns may crack is torn by opposite velocities of its halves. Bonds across the open crack are
-/// cut and the halves fly apart: momentum zero in all, no force between them in the end, energy balanced, the fracture
-/// energy of one crack dissipated by the two columns whose H is their common width.
+/// A bar whose two middle columns may crack is torn by opposite velocities of its halves. Bonds across the open crack
+/// are cut and the halves fly apart: momentum zero in all, no force between them in the end, energy balanced, the
+/// fracture energy of one crack dissipated by the two columns whose H is their common width.
 TEST(Fracture, TwoPiecesFlyApart) {
   Scene<2> s = block(24, 6, 0.0, spacing);
   s.parameters = concrete();
   s.options.courant = 0.15;
   s.options.release_integrity = 0.02;
-  s.options.rve_length = {RveLength::Rule::band, 0.0};
+  s.options.rve_length = {RveLength::Rule::number, 2.0 * spacing};
   add_group(s, {"left", {}, true}, [](const Vector& x) { return x[0] < 11e-3; });
   add_group(s, {"right", {}, true}, [](const Vector& x) { return x[0] > 13e-3; });
   const double v = 4.0;

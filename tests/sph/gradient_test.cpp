@@ -139,8 +139,8 @@ TEST(Gradient, DegenerateNeighbourhoods) {
   for (std::size_t i = 0; i < p.count; ++i) {
     const Matrix g = matrix(p.gradient[0][i], p.gradient[1][i], p.gradient[2][i], p.gradient[3][i]);
     const bool lone = p.id[i] == 6;
-    const Matrix exact = lone ? Matrix(Matrix::Zero())
-                              : Matrix(run.time_step() * velocity_gradient * along * along.transpose());
+    const Matrix exact =
+        lone ? Matrix(Matrix::Zero()) : Matrix(run.time_step() * velocity_gradient * along * along.transpose());
     EXPECT_LT((g - exact).norm(), 1e-17) << p.id[i];
   }
 }

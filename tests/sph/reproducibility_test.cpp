@@ -23,7 +23,8 @@ Scene<2> torn(const Variant& v) {
     if (x[1] < 5e-3 && std::abs(x[0] - 15e-3) < 1e-3) continue;
     notched.arrangement.add(x, s.arrangement.volume[i]);
   }
-  add_group(notched, {"left", {Motion{-0.4, 1e-6}, Motion{0.0, 0.0}}, true}, [](const Vector& x) { return x[0] < 3e-3; });
+  add_group(notched, {"left", {Motion{-0.4, 1e-6}, Motion{0.0, 0.0}}, true},
+            [](const Vector& x) { return x[0] < 3e-3; });
   add_group(notched, {"right", {Motion{0.4, 1e-6}, std::nullopt}, true}, [](const Vector& x) { return x[0] > 27e-3; });
   return notched;
 }

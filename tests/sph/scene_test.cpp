@@ -55,8 +55,8 @@ TEST(Scene, StabilityLimitOfAPairIsExact) {
   EXPECT_NEAR(stability_limit(s), 1e-3 / celerity, 1e-5 * 1e-3 / celerity);
 }
 
-/// The measured limit bounds the time step, so that no Courant number makes an elastic run explode, however irregular the
-/// arrangement.
+/// The measured limit bounds the time step, so that no Courant number makes an elastic run explode, however irregular
+/// the arrangement.
 TEST(Scene, TimeStepIsBoundedByTheMeasuredLimit) {
   for (const Configuration c : {Configuration::reference, Configuration::updated}) {
     Scene<2> s = block(14, 9, 0.35);

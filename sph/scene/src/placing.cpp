@@ -88,8 +88,8 @@ void add_rings(Arrangement<2>& a, const Body& body, const Point& centre, double 
     const int half_count = std::max(1, static_cast<int>(std::lround(pi * radius / a.spacing)));
     const double volume = pi * (far * far - near * near) / (2.0 * half_count);
     for (int i = 0; i < (half ? half_count : 2 * half_count); ++i) {
-      // A half disc has its particles half a step away from the flat side.
-      const double angle = half ? pi * (i + 0.5) / half_count : 0.5 * pi + pi * i / half_count;
+      // A half disc has its particles half a step away from the flat side as well.
+      const double angle = (half ? 0.0 : 0.5 * pi) + pi * (i + 0.5) / half_count;
       const Point x(centre[0] + radius * std::cos(angle), centre[1] + radius * std::sin(angle));
       if (contains(body, x)) a.add(x, volume);
     }

@@ -16,6 +16,7 @@ constexpr std::array<std::string_view, 3> disc_keys = {"type", "centre", "radius
 constexpr std::array<std::string_view, 4> ring_keys = {"type", "centre", "radius", "diameter_ratio"};
 constexpr std::array<std::string_view, 2> polygon_keys = {"type", "corners"};
 constexpr std::array<std::string_view, 4> notch_keys = {"mouth", "length", "angle_deg", "width"};
+constexpr std::array<std::string_view, 1> widths = {"narrowest"};
 constexpr std::array<std::string_view, 4> patterns = {"lattice", "sheared", "rings", "file"};
 constexpr std::array<std::string_view, 4> lattice_keys = {"type", "angle_deg", "origin", "align_to_notch"};
 constexpr std::array<std::string_view, 1> rings_keys = {"type"};
@@ -73,7 +74,7 @@ std::optional<Shape> read_shape(const InputReader& r, const Place& place) {
   return Ring{centre, ratio * radius, radius};
 }
 
-Notch read_notch(const InputReader& r, const Place& place) {
+Notch read_notch(const InputReader& r, const Place& place, double narrowest) {
   Notch n;
   n.tip = Point(0.0, 1.0);
   if (!r.object(place, "\"mouth\" and \"length\"")) return n;
@@ -83,7 +84,11 @@ Notch read_notch(const InputReader& r, const Place& place) {
   with_required(r, place, "length", [&](const Place& p) { length = r.positive(p).value_or(1.0); });
   with(place, "angle_deg",
        [&](const Place& p) { angle = degree * r.number_between(p, -360.0, 360.0, true).value_or(0.0); });
-  with(place, "width", [&](const Place& p) { n.width = not_negative(r, p).value_or(0.0); });
+  with(place, "width", [&](const Place& p) {
+    const bool word = p.value().is(JsonValue::Kind::string);
+    n.width = word ? narrowest : not_negative(r, p).value_or(0.0);
+    if (word) (void)choice(r, p, widths);
+  });
   n.tip = n.mouth + length * Point(-std::sin(angle), std::cos(angle));
   return n;
 }
@@ -142,9 +147,12 @@ void read_body(const InputReader& r, const Place& root, SceneFile& scene) {
       if (auto s = read_shape(r, Place(p, item))) scene.body.holes.push_back(*s);
     }
   });
+  // Particles do not interact across a slot as wide as the support of the kernel.
+  const double narrowest = kernel_support * scene.options.smoothing_ratio * scene.spacing;
   with(root, "notches", [&](const Place& p) {
     if (!p.value().is(JsonValue::Kind::array)) return r.problem(p, "expected an array of notches");
-    for (const JsonValue& item : p.value().items) scene.body.notches.push_back(read_notch(r, Place(p, item)));
+    for (const JsonValue& item : p.value().items)
+      scene.body.notches.push_back(read_notch(r, Place(p, item), narrowest));
   });
 }
 

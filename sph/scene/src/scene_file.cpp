@@ -81,10 +81,10 @@ SceneFile read_tree(JsonValue& root, const std::string& origin, const io::ReadLi
   }
   const auto material = read_material_of(r, root, problems);
   const Place top(root);
+  with(top, "method", [&](const Place& p) { read_method(r, p, scene.options); });
   read_body(r, top, scene);
   read_arrangement(r, top, scene);
   with_required(r, top, "boundaries", [&](const Place& p) { read_boundaries(r, p, scene); });
-  with(top, "method", [&](const Place& p) { read_method(r, p, scene.options); });
   with_required(r, top, "gauges", [&](const Place& p) { read_gauges(r, p, scene); });
   with_required(r, top, "stop", [&](const Place& p) { read_stop(r, p, scene.stop); });
   with(top, "output", [&](const Place& p) { read_output(r, p, scene.output); });

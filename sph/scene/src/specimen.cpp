@@ -157,7 +157,11 @@ std::size_t bridging_bonds(const SceneFile& scene, const Specimen& specimen) {
   std::size_t count = 0;
   for (std::size_t i = 0; i < a.size(); ++i) {
     grid.near(a.position[i], reach, [&](std::size_t j) {
-      const auto crossed = [&](const Notch& n) { return crosses(n, a.position[i], a.position[j]); };
+      // A pair that straddles the tip belongs to the material ahead of it.
+      const auto beside = [](const Notch& n, const Point& x) { return (x - n.tip).dot(along(n)) < 0.0; };
+      const auto crossed = [&](const Notch& n) {
+        return beside(n, a.position[i]) && beside(n, a.position[j]) && crosses(n, a.position[i], a.position[j]);
+      };
       if (i < j && std::any_of(scene.body.notches.begin(), scene.body.notches.end(), crossed)) ++count;
     });
   }

@@ -122,8 +122,13 @@ TEST(SceneFile, NotchOpeningLooksAtBothFaces) {
 
 TEST(SceneFile, BridgedNotchesAreNoticed) {
   const SceneFile narrow = read_scene(scenes / "beam_3pb.json", {"notches[0].width=0"});
-  const SceneFile wide = read_scene(scenes / "beam_3pb.json", {"notches[0].width=0.008"});
-  EXPECT_EQ(bridging_bonds(wide, make_specimen(wide)), 0u);
+  for (const int angle : {0, 15, 30, 45, 54, 60}) {
+    for (const char* type : {"sheared", "lattice"}) {
+      const SceneFile wide = read_scene(scenes / "scb.json", {"notches[0].angle_deg=" + std::to_string(angle),
+                                                              std::string("arrangement.type=") + type});
+      EXPECT_EQ(bridging_bonds(wide, make_specimen(wide)), 0u) << angle << " " << type;
+    }
+  }
   // Either the engine keeps the faces apart or it is said that they are not.
   constexpr bool cuts = []<class A>(const A*) {
     return requires(A a) { a.cuts; };

@@ -26,9 +26,9 @@ struct Arrangement {
   }
 };
 
-/// Adds the points of a square (cubic) lattice that fills the box [low, high], points at the centres of their cells, for
-/// which `inside` holds (all, when empty). The box must be a whole number of spacings wide, else the lattice starts at
-/// `low` and stops where a cell no longer fits.
+/// Adds the points of a square (cubic) lattice that fills the box [low, high], points at the centres of their cells,
+/// for which `inside` holds (all, when empty). The box must be a whole number of spacings wide, else the lattice starts
+/// at `low` and stops where a cell no longer fits.
 template <int Dim>
 void add_lattice(Arrangement<Dim>& a, const Vec<double, Dim>& low, const Vec<double, Dim>& high,
                  int group = Arrangement<Dim>::specimen,

@@ -27,7 +27,7 @@ template <int Dim>
 struct Group {
   std::string name;
   std::array<std::optional<Motion>, static_cast<std::size_t>(Dim)> motion;  ///< per component; empty: free
-  bool elastic = true;                            ///< its particles never crack
+  bool elastic = true;                                                      ///< its particles never crack
 };
 
 }  // namespace fpz::sph

@@ -1,4 +1,5 @@
-// The particles of a run as structure of arrays, in the order of a space-filling curve, padded to whole blocks of lanes.
+// The particles of a run as structure of arrays, in the order of a space-filling curve, padded to whole blocks of
+// lanes.
 #pragma once
 
 #include <array>
@@ -34,20 +35,20 @@ struct Particles {
   Fields<Dim> velocity;
   Fields<Dim> acceleration;
   Fields<Dim> predicted;  ///< updated: velocity at the full step (eq 29)
-  Field mass;                        ///< inertia, mass scaling included
-  Field inverse_mass;                ///< zero for padding
-  Field volume;                      ///< reference: of the undeformed particle; updated: current
-  Field density;                     ///< updated: kg/m^3, without mass scaling
-  Field length;                      ///< H, m
+  Field mass;             ///< inertia, mass scaling included
+  Field inverse_mass;     ///< zero for padding
+  Field volume;           ///< reference: of the undeformed particle; updated: current
+  Field density;          ///< updated: kg/m^3, without mass scaling
+  Field length;           ///< H, m
   Field kind;
-  Fields<tensor_size<Dim>> stress;      ///< reference: in the frame that turns with the particle
-  Fields<tensor_size<Dim>> strain;      ///< reference: U - I; updated: increment of the last step
-  Fields<tensor_size<Dim>> correction;  ///< L_i, or the identity in the reference form with paper's momentum
-  Fields<tensor_size<Dim>> artificial;  ///< updated: artificial stress of the particle, Pa
-  Fields<Dim * Dim> gradient;           ///< reference: F - I, row-major; updated: not used
-  Fields<Dim * Dim> flux;               ///< what the force sums: stress times correction, row-major
-  Fields<2> rotation;                   ///< cosine, sine: total (reference) or of the last step (updated)
-  std::vector<State<double, Dim>> point;           ///< of cracked particles; reference: in the turning frame
+  Fields<tensor_size<Dim>> stress;        ///< reference: in the frame that turns with the particle
+  Fields<tensor_size<Dim>> strain;        ///< reference: U - I; updated: increment of the last step
+  Fields<tensor_size<Dim>> correction;    ///< L_i, or the identity in the reference form with paper's momentum
+  Fields<tensor_size<Dim>> artificial;    ///< updated: artificial stress of the particle, Pa
+  Fields<Dim * Dim> gradient;             ///< reference: F - I, row-major; updated: not used
+  Fields<Dim * Dim> flux;                 ///< what the force sums: stress times correction, row-major
+  Fields<2> rotation;                     ///< cosine, sine: total (reference) or of the last step (updated)
+  std::vector<State<double, Dim>> point;  ///< of cracked particles; reference: in the turning frame
 
   [[nodiscard]] std::size_t padded() const { return mass.size(); }
   [[nodiscard]] std::size_t blocks() const { return mass.size() / lanes; }
