@@ -33,9 +33,9 @@ long long steps_to_deflection(const SceneFile& scene, double time_step) {
 std::vector<std::string> doubts(const SceneFile& scene, const Specimen& specimen) {
   const std::size_t bridges = bridging_bonds(scene, specimen);
   if (bridges == 0) return {};
-  return {std::to_string(bridges) +
-          " pairs of particles interact across a notch, which is therefore partly closed: make it at " +
-          "least two spacings wide"};
+  return {
+      std::to_string(bridges) +
+      " pairs of particles interact across a notch, which is therefore partly closed; give it the width \"narrowest\""};
 }
 
 Estimate estimate(const SceneFile& scene, const Specimen& specimen, int threads) {

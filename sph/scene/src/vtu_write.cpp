@@ -60,18 +60,18 @@ void write_vtu(const std::filesystem::path& file, const PointCloud& cloud) {
     xml += d.single ? array("Float32", d.name, d.components, appended.add<float>(d.values))
                     : array("Float64", d.name, d.components, appended.add<double>(d.values));
   }
-  xml += "</PointData>\n<CellData/>\n<Points>\n" + array("Float64", "Points", 3, appended.add<double>(cloud.points)) +
-         "</Points>\n<Cells>\n";
+  xml += "</PointData>\n<CellData/>\n<Points>\n";
+  xml += array("Float64", "Points", 3, appended.add<double>(cloud.points)) + "</Points>\n<Cells>\n";
   std::vector<std::int64_t> index(n), offset(n);
   for (std::size_t i = 0; i < n; ++i) {
     index[i] = static_cast<std::int64_t>(i);
     offset[i] = index[i] + 1;
   }
   constexpr std::uint8_t vertex = 1;
-  xml += array("Int64", "connectivity", 1, appended.add<std::int64_t>(index)) +
-         array("Int64", "offsets", 1, appended.add<std::int64_t>(offset)) +
-         array("UInt8", "types", 1, appended.add<std::uint8_t>(std::vector<std::uint8_t>(n, vertex))) +
-         "</Cells>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
+  xml += array("Int64", "connectivity", 1, appended.add<std::int64_t>(index));
+  xml += array("Int64", "offsets", 1, appended.add<std::int64_t>(offset));
+  xml += array("UInt8", "types", 1, appended.add<std::uint8_t>(std::vector<std::uint8_t>(n, vertex)));
+  xml += "</Cells>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
   io::write_text(file, xml + appended.bytes + "\n</AppendedData>\n</VTKFile>\n", true);
 }
 
