@@ -178,6 +178,7 @@ void Engine<Dim>::point_view() {
   v.strength = material.law.cohesion * material.cos_phi;
   v.apex = material.law.apex;
   v.weight_scale = 1.0 / o.mass_scale;
+  v.rest_density = scene.parameters.density;
   v.sound_speed = std::sqrt(scene.parameters.young_modulus / scene.parameters.density);
   v.top_speed = std::sqrt((v.lambda + 2.0 * v.mu) / scene.parameters.density);
   v.damped = o.damping > 0.0;

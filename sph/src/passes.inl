@@ -242,7 +242,6 @@ void force_updated(const V& v, Index first, Index last) {
   const double *txx = v.flux[0], *txy = v.flux[1], *tyx = v.flux[2], *tyy = v.flux[3];
   const double *x = v.position[0], *y = v.position[1], *ux = v.predicted[0], *uy = v.predicted[1];
   const double *rxx = v.artificial[0], *ryy = v.artificial[1], *rxy = v.artificial[2];
-  const double* density = v.density;
   const double h = v.smoothing;
   for (Index b = first; b < last; ++b) {
     const Index o = b * n;
@@ -263,13 +262,13 @@ void force_updated(const V& v, Index first, Index last) {
         }
         fx[l] += (txx[i] + txx[j[l]]) * gx + (txy[i] + txy[j[l]]) * gy;
         fy[l] += (tyx[i] + tyx[j[l]]) * gx + (tyy[i] + tyy[j[l]]) * gy;
-        // Artificial viscosity, only while the pair approaches.
+        // Artificial viscosity, only while the pair approaches; rocks keep their density, its mean of the pair would cost
+        // a gather and a division.
         const double dx = x[j[l]] - x[i];
         const double dy = y[j[l]] - y[i];
         const double approach = (ux[j[l]] - ux[i]) * dx + (uy[j[l]] - uy[i]) * dy;
         const double rate = h * (approach < 0.0 ? approach : 0.0) / (dx * dx + dy * dy + 0.01 * h * h);
-        const double harmonic = density[i] * density[j[l]] / (density[i] + density[j[l]]);
-        const double pressure = 2.0 * harmonic * rate * (v.viscosity_beta * rate - v.viscosity_alpha * v.sound_speed);
+        const double pressure = v.rest_density * rate * (v.viscosity_beta * rate - v.viscosity_alpha * v.sound_speed);
         vx[l] -= pressure * gx;
         vy[l] -= pressure * gy;
         const double f = closeness[l];

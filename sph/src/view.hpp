@@ -59,7 +59,7 @@ struct View {
   double slope_norm = 0.0;  // kernel_norm / h^2
   double reference_shape = 1.0;
   int closeness_power = 4;
-  double sound_speed = 0.0, viscosity_alpha = 0.0, viscosity_beta = 0.0;
+  double rest_density = 0.0, sound_speed = 0.0, viscosity_alpha = 0.0, viscosity_beta = 0.0;
   double artificial_stress = 0.0;
 };
 

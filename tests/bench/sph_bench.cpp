@@ -66,13 +66,13 @@ double lammps_rate() {
   std::filesystem::create_directories(folder);
   const std::string input = folder / "in.peri";
   const std::string log = folder / "log.peri";
-  std::ofstream(input) << "units si\nboundary s s p\natom_style peri\natom_modify map array\n"
-                          "neighbor 0.0003 bin\nnewton on\n"
-                       << "lattice sc " << spacing << "\nregion all block 0 " << columns << " 0 " << rows
-                       << " 0 1 units lattice\ncreate_box 1 all\ncreate_atoms 1 region all\n"
+  std::ofstream(input) << "units si\nboundary f f f\natom_style peri\natom_modify map array\nneighbor 0.0003 bin\n"
+                       << "lattice sc " << spacing << "\nregion box block -2 " << columns + 2 << " -2 " << rows + 2
+                       << " -2 2 units lattice\nregion body block -0.1 " << columns - 0.9 << " -0.1 " << rows - 0.9
+                       << " -0.1 0.1 units lattice\ncreate_box 1 box\ncreate_atoms 1 region body\n"
                        << "pair_style peri/pmb\npair_coeff * * 1.0e22 " << 2.4001 * spacing << " 1.0e10 0.25\n"
                        << "set group all density 2400\nset group all volume " << spacing * spacing * spacing << "\n"
-                       << "velocity all create 1e-3 4928459\nfix 1 all nve\ntimestep 1.0e-8\nthermo 1000\n"
+                       << "velocity all create 1e-30 4928459\nfix 1 all nve\ntimestep 1.0e-8\nthermo 1000\n"
                        << "run 200\nrun 2000\n";
   double best = 0.0;
   for (int k = 0; k < 3; ++k) {
