@@ -60,6 +60,7 @@ class Runner {
       begin_history();
     }
     io::make_writable_folder(files_.frames);
+    remove_leftovers();
     io::write_text(files_.scene, scene_.text, true);
     if (!request_.resume) {
       add_row();
@@ -77,6 +78,19 @@ class Runner {
     for (const auto& entry : fs::directory_iterator(files_.frames, ignored)) {
       const std::string name = entry.path().filename().string();
       if (name.starts_with("frame_") && entry.path().extension() == ".vtu") fs::remove(entry.path(), ignored);
+    }
+  }
+
+  /// Temporary files of a process that was killed while it wrote one.
+  void remove_leftovers() const {
+    std::error_code ignored;
+    for (const fs::path& folder : {request_.folder, files_.frames}) {
+      for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+        const std::string name = entry.path().filename().string();
+        for (const char* stem : {".scene.", ".history.", ".summary.", ".checkpoint.", ".crack.", ".frame"}) {
+          if (name.starts_with(stem)) fs::remove(entry.path(), ignored);
+        }
+      }
     }
   }
 

@@ -63,6 +63,10 @@ execute_process(COMMAND timeout -s KILL 2 "${PROGRAM}" "${beam}" -o "${WORK}/kil
                 RESULT_VARIABLE result OUTPUT_QUIET ERROR_QUIET)
 expect(3 "" "${beam}" -o "${WORK}/killed" --set spacing=0.004 --set stop.time=10 --set output.checkpoint_seconds=0.2
        --set output.frames=1000 --no-pictures --resume --steps 10)
+file(GLOB_RECURSE left_over "${WORK}/killed/.*")
+if(left_over)
+  message(SEND_ERROR "temporary files are left: ${left_over}")
+endif()
 # SIGTERM leaves a checkpoint.
 execute_process(COMMAND timeout -s TERM 1 "${PROGRAM}" "${beam}" -o "${WORK}/terminated" --set spacing=0.004
                         --set stop.time=10 --no-pictures
