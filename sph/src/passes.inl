@@ -262,8 +262,8 @@ void force_updated(const V& v, Index first, Index last) {
         }
         fx[l] += (txx[i] + txx[j[l]]) * gx + (txy[i] + txy[j[l]]) * gy;
         fy[l] += (tyx[i] + tyx[j[l]]) * gx + (tyy[i] + tyy[j[l]]) * gy;
-        // Artificial viscosity, only while the pair approaches; rocks keep their density, its mean of the pair would cost
-        // a gather and a division.
+        // Artificial viscosity, only while the pair approaches; rocks keep their density, its mean of the pair would
+        // cost a gather and a division.
         const double dx = x[j[l]] - x[i];
         const double dy = y[j[l]] - y[i];
         const double approach = (ux[j[l]] - ux[i]) * dx + (uy[j[l]] - uy[i]) * dy;

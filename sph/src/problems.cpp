@@ -19,10 +19,14 @@ class Messages {
   std::vector<std::string> list_;
 };
 
-std::string number(const std::string& name, double value, const std::string& constraint) {
+std::string entry(const std::string& name, double value, const std::string& constraint) {
   std::ostringstream s;
-  s << name << " = " << value << ": must be " << constraint;
+  s << name << " = " << value << ": " << constraint;
   return s.str();
+}
+
+std::string number(const std::string& name, double value, const std::string& constraint) {
+  return entry(name, value, "must be " + constraint);
 }
 
 template <int Dim>
@@ -90,7 +94,7 @@ std::vector<std::string> problems(const Scene<Dim>& s) {
   Parameters p = s.parameters;
   p.rve_length = 1e-6;  // the particles carry their own
   const Validation v = validate(p, s.setting);
-  for (const Violation& e : v.errors) m.require(false, number(e.field, e.value, e.constraint));
+  for (const Violation& e : v.errors) m.require(false, entry(e.field, e.value, e.constraint));
   return m.take();
 }
 

@@ -23,11 +23,11 @@ double time_step(const Scene<Dim>& s) {
 namespace {
 
 template <int Dim>
-detail::Engine<Dim>* make_engine(const Scene<Dim>& scene) {
+std::unique_ptr<detail::Engine<Dim>> make_engine(const Scene<Dim>& scene) {
   std::string text;
   for (const std::string& problem : problems(scene)) text += (text.empty() ? "" : "\n") + problem;
   if (!text.empty()) throw std::invalid_argument(text);
-  return new detail::Engine<Dim>(scene, time_step(scene));
+  return std::make_unique<detail::Engine<Dim>>(scene, time_step(scene));
 }
 
 }  // namespace
@@ -35,18 +35,11 @@ detail::Engine<Dim>* make_engine(const Scene<Dim>& scene) {
 template <int Dim>
 Simulation<Dim>::Simulation(const Scene<Dim>& scene) : engine_(make_engine(scene)) {}
 template <int Dim>
-Simulation<Dim>::~Simulation() {
-  delete engine_;
-}
+Simulation<Dim>::~Simulation() = default;
 template <int Dim>
-Simulation<Dim>::Simulation(Simulation&& other) noexcept : engine_(other.engine_) {
-  other.engine_ = nullptr;
-}
+Simulation<Dim>::Simulation(Simulation&&) noexcept = default;
 template <int Dim>
-Simulation<Dim>& Simulation<Dim>::operator=(Simulation&& other) noexcept {
-  std::swap(engine_, other.engine_);
-  return *this;
-}
+Simulation<Dim>& Simulation<Dim>::operator=(Simulation&&) noexcept = default;
 
 template <int Dim>
 Outcome Simulation<Dim>::step() {

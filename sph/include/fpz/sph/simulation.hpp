@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -88,7 +89,7 @@ class Simulation {
   void restore(std::span<const unsigned char> bytes);
 
  private:
-  detail::Engine<Dim>* engine_;
+  std::unique_ptr<detail::Engine<Dim>> engine_;
 };
 
 extern template class Simulation<2>;
