@@ -186,7 +186,7 @@ Picture velocity_map(const PointCloud& cloud, double size) {
                            "#F6D5C3", "#EE9A78", "#D1495B", "#7A0F22"};
   std::vector<ColourClass> classes;
   for (int k = -4; k <= 4; ++k) {
-    classes.push_back({text_of(1e3 * scale * k / 4.0, 2) + (k == 4 ? " mm/s" : ""), colours[k + 4]});
+    classes.push_back({text_of(1e3 * scale * k / 4.0) + (k == 4 ? " mm/s" : ""), colours[k + 4]});
   }
   ParticleMap map{"horizontal velocity, largest " + text_of(1e3 * largest) + " mm/s", positions(cloud), {}, {}};
   for (std::size_t i = 0; i < cloud.size(); ++i) {

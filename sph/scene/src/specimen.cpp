@@ -142,7 +142,7 @@ Mat<double, 2, 2> stress_in_space(const Simulation<2>& run, std::size_t i, bool 
 /// Threads that pay off: below some thousand particles each, waiting for each other costs more than it gains.
 int worthwhile_threads(std::size_t particles) {
   const auto cores = static_cast<std::size_t>(std::max(1U, std::thread::hardware_concurrency()));
-  return static_cast<int>(std::clamp(particles / 2000, std::size_t{1}, cores));
+  return static_cast<int>(std::clamp(particles / 4000, std::size_t{1}, cores));
 }
 
 bool is_updated(const Specimen& s) { return s.setup.options.configuration == Configuration::updated; }
