@@ -74,7 +74,7 @@ double largest(const std::vector<double>& column) {
 /// Scale and tolerance of each kind of column.
 class Scales {
  public:
-  Scales(const Table& reference, const CompareOptions& options) : options_(options) {
+  Scales(const io::Table& reference, const CompareOptions& options) : options_(options) {
     for (std::size_t k = 0; k < reference.names.size(); ++k) {
       double& scale = scale_[kind_of(our_name(reference.names[k]))];
       scale = std::max(scale, largest(reference.columns[k]));
@@ -123,7 +123,7 @@ ColumnDifference compare_column(const std::string& name, const std::vector<doubl
   return d;
 }
 
-const std::vector<double>& times_of(const Table& table) {
+const std::vector<double>& times_of(const io::Table& table) {
   const auto* time = table.find("time");
   return time ? *time : table.at("T");
 }
@@ -153,7 +153,7 @@ std::string Comparison::report() const {
   return text + (ok() ? "ok\n" : "DIFFERENT\n");
 }
 
-Comparison compare_histories(const Table& history, const Table& reference, const CompareOptions& options) {
+Comparison compare_histories(const io::Table& history, const io::Table& reference, const CompareOptions& options) {
   Comparison out;
   const std::vector<double>& times = times_of(reference);
   const std::vector<double>& our_times = times_of(history);

@@ -104,7 +104,7 @@ std::string stage_colour(int k, int count) {
   return text;
 }
 
-HistoryCurves::HistoryCurves(const Table& table) : table_(table) {
+HistoryCurves::HistoryCurves(const io::Table& table) : table_(table) {
   for (const double s : table.at("stage")) {
     if (std::isfinite(s)) stages_ = std::max(stages_, static_cast<int>(s));
   }

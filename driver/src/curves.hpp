@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "fpz/driver/csv.hpp"
+#include "fpz/io/csv.hpp"
 
 namespace fpz::driver {
 
@@ -51,7 +51,7 @@ struct Panel {
 /// What the pictures show of a history, in MPa, micrometres and thousandths.
 class HistoryCurves {
  public:
-  explicit HistoryCurves(const Table& table);
+  explicit HistoryCurves(const io::Table& table);
 
   [[nodiscard]] int stages() const { return stages_; }
   [[nodiscard]] Panel stress_strain(const std::string& component) const;
@@ -74,7 +74,7 @@ class HistoryCurves {
   [[nodiscard]] bool elastic_cracked(int stage) const;
   void find_local();
 
-  const Table& table_;
+  const io::Table& table_;
   int stages_ = 0;
   bool magnitude_ = false;               ///< 3-D: the shear is drawn as a magnitude
   std::vector<double> u_s_, t_n_, t_s_;  ///< local quantities; in 2-D the tractions before onset, too

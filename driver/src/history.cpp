@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "fpz/driver/output.hpp"
+#include "fpz/io/output.hpp"
 
 namespace fpz::driver {
 namespace {
@@ -108,7 +108,7 @@ std::string to_csv(const History& history) {
 }
 
 void write_history(const std::filesystem::path& file, const History& history, bool force) {
-  write_text(file, to_csv(history), force);
+  io::write_text(file, to_csv(history), force);
 }
 
 }  // namespace fpz::driver

@@ -9,16 +9,17 @@
 #include <set>
 
 #include "fpz/driver/compare.hpp"
-#include "fpz/driver/output.hpp"
 #include "fpz/driver/path_file.hpp"
 #include "fpz/driver/plot.hpp"
 #include "fpz/driver/replay.hpp"
 #include "fpz/driver/run.hpp"
 #include "fpz/driver/tangent_check.hpp"
+#include "fpz/io/output.hpp"
 
 namespace {
 
 namespace fs = std::filesystem;
+namespace io = fpz::io;
 using namespace fpz::driver;
 
 /// One line on the terminal that is written over again and again; nothing when stderr is no terminal.
@@ -75,7 +76,7 @@ void warn(const std::vector<std::string>& warnings) {
   for (const std::string& w : warnings) std::cerr << "warning: " << w << "\n";
 }
 
-void plot_test(const Table& table, PlotRequest request) {
+void plot_test(const io::Table& table, PlotRequest request) {
   const PlotOutcome pictures = plot_history(table, request);
   warn(pictures.warnings);
   if (!pictures.files.empty())
@@ -84,7 +85,7 @@ void plot_test(const Table& table, PlotRequest request) {
 
 /// Runs one test and writes all its files. Returns whether it came through.
 bool run_one(const Test& test, const fs::path& folder, const RunArguments& arguments) {
-  make_writable_folder(folder);
+  io::make_writable_folder(folder);
   Result result;
   {
     ProgressLine line(test.name);
@@ -98,7 +99,7 @@ bool run_one(const Test& test, const fs::path& folder, const RunArguments& argum
   if (!result.ok()) std::cerr << "error: " << result.message << "\n";
   if (arguments.plots) {
     const fpz::Parameters& p = test.parameters;
-    plot_test(parse_csv(to_csv(result.history), "history.csv"),
+    plot_test(io::parse_csv(to_csv(result.history), "history.csv"),
               {test.name, folder, YieldSurface{p.tensile_strength, p.cohesion, p.friction_angle_deg}, arguments.force});
   }
   return result.ok();
@@ -108,8 +109,8 @@ int run(const RunArguments& arguments) {
   const PathFile paths = read_path_file(arguments.file);
   const auto folders = test_folders(paths, arguments.out);
   for (const fs::path& folder : folders) {  // before the work, not after it
-    require_absent({folder / "history.csv", folder / "summary.json"}, arguments.force);
-    if (arguments.plots) require_absent(picture_files(folder, true), arguments.force);
+    io::require_absent({folder / "history.csv", folder / "summary.json"}, arguments.force);
+    if (arguments.plots) io::require_absent(picture_files(folder, true), arguments.force);
   }
   bool ok = true;
   for (std::size_t k = 0; k < paths.tests.size(); ++k) ok = run_one(paths.tests[k], folders[k], arguments) && ok;
@@ -118,14 +119,14 @@ int run(const RunArguments& arguments) {
 
 int plot(const std::string& what, bool force) {
   const fs::path file = fs::is_directory(what) ? fs::path(what) / "history.csv" : fs::path(what);
-  const Table table = read_csv(file);
+  const io::Table table = io::read_csv(file);
   PlotRequest request;
   request.folder = file.parent_path().empty() ? fs::path(".") : file.parent_path();
   request.force = force;
   read_plot_facts(request.folder / "summary.json", request);
   if (request.title.empty()) request.title = file.stem().string();
   if (!request.surface) std::cerr << "note: no summary.json next to the history, so the yield surface is not drawn\n";
-  make_writable_folder(request.folder);
+  io::make_writable_folder(request.folder);
   plot_test(table, request);
   return 0;
 }
@@ -141,7 +142,7 @@ int check(const std::string& file, const TangentCheckOptions& options) {
 }
 
 int compare(const std::string& history, const std::string& reference, const CompareOptions& options) {
-  const Comparison result = compare_histories(read_csv(history), read_csv(reference), options);
+  const Comparison result = compare_histories(io::read_csv(history), io::read_csv(reference), options);
   std::cout << result.report();
   return result.ok() ? 0 : 1;
 }

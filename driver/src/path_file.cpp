@@ -6,8 +6,8 @@
 #include <map>
 #include <utility>
 
-#include "input_reader.hpp"
-#include "material_file.hpp"
+#include "fpz/io/input_reader.hpp"
+#include "fpz/io/material_file.hpp"
 #include "stage_reader.hpp"
 
 namespace fpz::driver {
@@ -15,6 +15,15 @@ namespace detail {
 namespace {
 
 using Kind = JsonValue::Kind;
+using io::check_material;
+using io::exact;
+using io::in_quotes;
+using io::load_material;
+using io::Location;
+using io::Material;
+using io::Problems;
+using io::shown;
+using io::suggestion;
 
 constexpr std::size_t longest_name = 200;
 constexpr std::size_t longest_description = 4000;
@@ -62,7 +71,7 @@ std::string lower_case(std::string text) {
 class FileReader {
  public:
   FileReader(const std::filesystem::path& origin, const Limits& limits)
-      : origin_(origin), problems_(limits.problems), reader_(origin.string(), limits, problems_) {}
+      : origin_(origin), limits_(limits), problems_(limits.problems), reader_(origin.string(), limits, problems_) {}
 
   std::vector<Test> read(std::string_view text) {
     JsonValue root;
@@ -91,8 +100,8 @@ class FileReader {
 
   void read_tests(const Place& root, const Place& list, std::vector<Test>& tests) {
     if (!reader_.array(list, "tests")) return;
-    if (list.value().items.size() > reader_.limits().tests) {
-      reader_.problem(list, "more than " + std::to_string(reader_.limits().tests) + " tests");
+    if (list.value().items.size() > limits_.tests) {
+      reader_.problem(list, "more than " + std::to_string(limits_.tests) + " tests");
       return;
     }
     refuse_unused(root, list);
@@ -326,9 +335,9 @@ class FileReader {
       const StageCount count = count_stages(**used.entries);
       total.stages += count.stages;
       total.increments += count.increments;
-      if (total.stages > reader_.limits().stages) return refuse_excess(used, "stages", reader_.limits().stages);
-      if (total.increments > reader_.limits().increments) {
-        return refuse_excess(used, "increments", reader_.limits().increments);
+      if (total.stages > limits_.stages) return refuse_excess(used, "stages", limits_.stages);
+      if (total.increments > limits_.increments) {
+        return refuse_excess(used, "increments", limits_.increments);
       }
     }
     for (std::size_t k = 0; k < tests.size(); ++k) expand_stages(**used_stages_[k].entries, tests[k].stages);
@@ -340,6 +349,7 @@ class FileReader {
   }
 
   const std::filesystem::path& origin_;
+  const Limits& limits_;
   Problems problems_;
   InputReader reader_;
   std::map<const JsonValue*, std::optional<Material>> materials_;
@@ -359,25 +369,10 @@ PathFile read_path_file(const std::filesystem::path& file) {
   const Limits limits;
   std::string text;
   std::string error;
-  if (!detail::load_text(file, detail::FileKind::any, limits, text, error)) {
+  if (!io::load_text(file, io::FileKind::any, limits, text, error)) {
     throw InputError(file.string() + ": cannot read path file: " + error);
   }
   return parse_path_file(text, file, limits);
-}
-
-Parameters read_material_file(const std::filesystem::path& file, std::string* name) {
-  const Limits limits;
-  detail::Problems problems(limits.problems);
-  std::string error;
-  const auto material = detail::load_material(file, file.string(), limits, problems, error);
-  if (!error.empty()) throw InputError(file.string() + ": cannot read material file: " + error);
-  problems.throw_if_any();
-  if (!material) throw InputError(file.string() + ": no material");
-  // The setting only moves the bound of rve_length, which a material file does not have.
-  (void)detail::check_material(*material, material->parameters, Setting::plane_strain, std::nullopt, problems);
-  problems.throw_if_any();
-  if (name != nullptr) *name = material->name;
-  return material->parameters;
 }
 
 }  // namespace fpz::driver

@@ -1,63 +1,22 @@
 #include "fpz/driver/plot.hpp"
 
-#include <gnuplot-iostream.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <csignal>
-#include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
-#include <tuple>
+#include <ostream>
 
 #include "curves.hpp"
-#include "fpz/driver/output.hpp"
 #include "fpz/driver/path_file.hpp"
+#include "fpz/io/gnuplot.hpp"
+#include "fpz/io/output.hpp"
 
 namespace fpz::driver {
 namespace fs = std::filesystem;
 namespace {
 
-/// While it lives, a gnuplot that dies does not take this process along.
-class IgnoreBrokenPipe {
- public:
-  IgnoreBrokenPipe() : previous_(std::signal(SIGPIPE, SIG_IGN)) {}
-  ~IgnoreBrokenPipe() { std::signal(SIGPIPE, previous_); }
-  IgnoreBrokenPipe(const IgnoreBrokenPipe&) = delete;
-  IgnoreBrokenPipe& operator=(const IgnoreBrokenPipe&) = delete;
-
- private:
-  void (*previous_)(int);
-};
-
-bool gnuplot_is_installed() {
-  const char* path = std::getenv("PATH");
-  std::istringstream folders(path ? path : "");
-  for (std::string folder; std::getline(folders, folder, ':');) {
-    if (::access(((folder.empty() ? "." : folder) + "/gnuplot").c_str(), X_OK) == 0) return true;
-  }
-  return false;
-}
-
-std::string quoted(const std::string& text) {
-  std::string out = "'";
-  for (const char c : text) {
-    if (static_cast<unsigned char>(c) < ' ') continue;
-    out += c;
-    if (c == '\'') out += c;
-  }
-  return out + "'";
-}
-
-std::string number(double x) {
-  std::ostringstream text;
-  text.precision(10);
-  text << x;
-  return text.str();
-}
+using io::gnuplot_quoted;
 
 enum class Format { png, svg };
 
@@ -69,7 +28,7 @@ struct Size {
 
 class Picture {
  public:
-  Picture(Gnuplot& gp, Format format, Size size) : gp_(gp), format_(format) {
+  Picture(std::ostream& gp, Format format, Size size) : gp_(gp), format_(format) {
     const int f = format == Format::png ? 2 : 1;
     gp_ << "set encoding utf8\n";
     gp_ << "set terminal " << (format == Format::png ? "pngcairo" : "svg dynamic") << " enhanced font 'DejaVu Sans,"
@@ -79,13 +38,14 @@ class Picture {
     gp_ << "set grid lc rgb '#E6E6E6' lw 0.7 dt 1\nset key samplen 1.8 spacing 1.15 reverse Left\n";
   }
 
-  void title(const std::string& text) { gp_ << "set title " << quoted(text) << " noenhanced\n"; }
+  void title(const std::string& text) { gp_ << "set title " << gnuplot_quoted(text) << " noenhanced\n"; }
   void letter(const std::string& text) {
-    gp_ << "set label 50 " << quoted(text) << " at graph -0.05, graph 1.07 right\n";
+    gp_ << "set label 50 " << gnuplot_quoted(text) << " at graph -0.05, graph 1.07 right\n";
   }
 
   void labels(const Panel& panel) {
-    gp_ << "set xlabel " << quoted(panel.x_label) << "\nset ylabel " << quoted(panel.y_label) << " offset 0.5,0\n";
+    gp_ << "set xlabel " << gnuplot_quoted(panel.x_label) << "\nset ylabel " << gnuplot_quoted(panel.y_label)
+        << " offset 0.5,0\n";
     if (panel.legend) {
       gp_ << "set key " << panel.key << "\n";
     } else {
@@ -94,8 +54,8 @@ class Picture {
   }
 
   void ranges(const Range& x, const Range& y) {
-    gp_ << "set xrange [" << number(x.lo) << ':' << number(x.hi) << "]\nset yrange [" << number(y.lo) << ':'
-        << number(y.hi) << "]\n";
+    gp_ << "set xrange [" << io::gnuplot_number(x.lo) << ':' << io::gnuplot_number(x.hi) << "]\nset yrange ["
+        << io::gnuplot_number(y.lo) << ':' << io::gnuplot_number(y.hi) << "]\n";
   }
 
   /// Draws the panel over ranges that hold all its points.
@@ -121,7 +81,7 @@ class Picture {
       if (c.points.empty()) continue;
       const bool coloured = c.style.find("palette") != std::string::npos;
       command += (command.empty() ? "plot " : ", ") + std::string("'-' using 1:2") + (coloured ? ":3" : "") + " with " +
-                 c.style + (c.title.empty() ? " notitle" : " title " + quoted(c.title));
+                 c.style + (c.title.empty() ? " notitle" : " title " + gnuplot_quoted(c.title));
     }
     if (command.empty()) {
       gp_ << "set label 99 'no fracture' at graph 0.5,0.6 center textcolor rgb '#606060'\nplot NaN notitle\nunset "
@@ -145,22 +105,21 @@ class Picture {
     std::string command;
     for (const Curve& c : panel.curves) {
       if (!c.title.empty())
-        command += (command.empty() ? "plot NaN with " : ", NaN with ") + c.style + " title " + quoted(c.title);
+        command += (command.empty() ? "plot NaN with " : ", NaN with ") + c.style + " title " + gnuplot_quoted(c.title);
     }
     if (!command.empty()) gp_ << command << "\n";
   }
 
-  Gnuplot& raw() { return gp_; }
+  std::ostream& raw() { return gp_; }
 
  private:
   void send(const Points& points) {
-    std::vector<std::tuple<double, double, double>> rows;
-    rows.reserve(points.size());
-    for (const XY& p : points) rows.emplace_back(p.x, p.y, p.c);
-    gp_.send1d(rows);
+    for (const XY& p : points)
+      gp_ << io::gnuplot_number(p.x) << ' ' << io::gnuplot_number(p.y) << ' ' << io::gnuplot_number(p.c) << '\n';
+    gp_ << "e\n";
   }
 
-  Gnuplot& gp_;
+  std::ostream& gp_;
   Format format_;
 };
 
@@ -196,7 +155,7 @@ Job four_panels(const HistoryCurves& curves, const std::string& title) {
             std::array<Panel, 4> panels = {curves.stress_strain("xx"), curves.stress_strain("xy"),
                                            curves.normal_traction(), curves.shear_traction()};
             const std::array<const char*, 4> letters = {"(A)", "(B)", "(C)", "(D)"};
-            p.raw() << "set multiplot layout 2,2 title " << quoted(title)
+            p.raw() << "set multiplot layout 2,2 title " << gnuplot_quoted(title)
                     << " noenhanced font ',17' margins 0.095,0.98,0.09,0.865 "
                     << "spacing 0.115,0.135\n";
             for (std::size_t k = 0; k < 4; ++k) {
@@ -211,7 +170,7 @@ Job four_panels(const HistoryCurves& curves, const std::string& title) {
 
 Job loading_path(const HistoryCurves& curves, const std::string& title) {
   return {"loading_path", {}, [&curves, title](Picture& p) {
-            p.raw() << "set title " << quoted(title) << " noenhanced offset 0,0.9\n";
+            p.raw() << "set title " << gnuplot_quoted(title) << " noenhanced offset 0,0.9\n";
             mark_stages(p, curves.stages());
             p.draw(curves.loading_path());
           }};
@@ -219,7 +178,7 @@ Job loading_path(const HistoryCurves& curves, const std::string& title) {
 
 Job damage_energy(const HistoryCurves& curves, const std::string& title) {
   return {"damage_energy", {800, 820}, [&curves, title](Picture& p) {
-            p.raw() << "set multiplot layout 2,1 title " << quoted(title)
+            p.raw() << "set multiplot layout 2,1 title " << gnuplot_quoted(title)
                     << " noenhanced font ',17' margins 0.15,0.97,0.13,0.9 "
                     << "spacing 0.1,0.11\n";
             mark_stages(p, curves.stages());
@@ -289,17 +248,9 @@ std::vector<Job> jobs(const HistoryCurves& curves, const PlotRequest& request) {
 }
 
 void draw_one(const Job& job, Format format, const fs::path& file, bool force) {
-  replace_file(file, force, [&](const fs::path& temporary) {
-    {
-      Gnuplot gp("gnuplot");
-      Picture picture(gp, format, job.size);
-      gp << "set output " << quoted(temporary.string()) << "\n";
-      job.draw(picture);
-      gp << "unset output\n" << std::flush;
-    }  // waits for gnuplot
-    std::error_code error;
-    const auto size = fs::file_size(temporary, error);
-    if (error || size == 0) throw OutputError(file.string() + ": gnuplot did not draw it");
+  io::draw_with_gnuplot(file, force, [&](std::ostream& gp) {
+    Picture picture(gp, format, job.size);
+    job.draw(picture);
   });
 }
 
@@ -316,14 +267,13 @@ std::vector<fs::path> picture_files(const fs::path& folder, bool with_surface) {
   return files;
 }
 
-PlotOutcome plot_history(const Table& history, const PlotRequest& request) {
-  require_absent(picture_files(request.folder, request.surface.has_value()), request.force);
+PlotOutcome plot_history(const io::Table& history, const PlotRequest& request) {
+  io::require_absent(picture_files(request.folder, request.surface.has_value()), request.force);
   PlotOutcome outcome;
-  if (!gnuplot_is_installed()) {
+  if (!io::gnuplot_is_installed()) {
     outcome.warnings.emplace_back("no pictures: gnuplot is not installed (apt-get install gnuplot-nox)");
     return outcome;
   }
-  const IgnoreBrokenPipe guard;
   const HistoryCurves curves(history);
   for (const Job& job : jobs(curves, request)) {
     for (const Format format : {Format::png, Format::svg}) {
@@ -331,7 +281,7 @@ PlotOutcome plot_history(const Table& history, const PlotRequest& request) {
       try {
         draw_one(job, format, file, request.force);
         outcome.files.push_back(file);
-      } catch (const OutputError& e) {
+      } catch (const io::OutputError& e) {
         outcome.warnings.emplace_back(e.what());
       }
     }

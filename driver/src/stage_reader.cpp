@@ -108,7 +108,7 @@ class StageReader {
     const std::span<const std::string_view> valid = components_of(setting_);
     if (std::find(valid.begin(), valid.end(), name) != valid.end()) return component_index(name);
     if (component_index(name) < 0) {
-      reader_.problem(member, "unknown component " + in_quotes(name) + suggestion(name, valid));
+      reader_.problem(member, "unknown component " + io::in_quotes(name) + io::suggestion(name, valid));
     } else {
       const bool stress = setting_ == Setting::plane_stress;
       reader_.problem(member, "component \"" + name + "\" cannot be controlled in " + to_string(setting_) + ", where " +
@@ -215,7 +215,7 @@ class StageReader {
       const Place at(place, member);
       const auto known = std::find(stop_quantities.begin(), stop_quantities.end(), member.key);
       if (known == stop_quantities.end()) {
-        reader_.problem(at, "unknown quantity " + in_quotes(member.key) + suggestion(member.key, stop_quantities));
+        reader_.problem(at, "unknown quantity " + io::in_quotes(member.key) + io::suggestion(member.key, stop_quantities));
       }
       const bool damage = member.key == "D";
       const std::optional<double> value = damage ? reader_.number_between(at, 0.0, 1.0) : reader_.number(at);

@@ -4,9 +4,14 @@
 #include <optional>
 #include <vector>
 
-#include "input_reader.hpp"
+#include "fpz/driver/path_file.hpp"
+#include "fpz/io/input_reader.hpp"
 
 namespace fpz::driver::detail {
+
+using io::InputReader;
+using io::JsonValue;
+using io::Place;
 
 /// A stage, or a list of entries that is repeated.
 struct StageEntry {

@@ -1,7 +1,7 @@
 #include <nlohmann/json.hpp>
 
-#include "fpz/driver/output.hpp"
 #include "fpz/driver/run.hpp"
+#include "fpz/io/output.hpp"
 
 namespace fpz::driver {
 namespace {
@@ -84,7 +84,7 @@ std::string to_json(const Test& test, const Result& result) {
 }
 
 void write_summary(const std::filesystem::path& file, const Test& test, const Result& result, bool force) {
-  write_text(file, to_json(test, result), force);
+  io::write_text(file, to_json(test, result), force);
 }
 
 std::string folder_name(const std::string& test_name) {

@@ -3,10 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
-#include "plotting.hpp"
+#include "fpz/io/gnuplot.hpp"
+#include "fpz/io/picture.hpp"
 
 namespace fpz::bench {
 namespace {
+
+io::Panel log_log() {
+  io::Panel p;
+  p.log_x = p.log_y = true;
+  return p;
+}
 
 using Points = std::vector<std::pair<double, double>>;
 
@@ -18,11 +25,11 @@ constexpr const char* orange = "#E69F00";
 constexpr const char* black = "#202020";
 
 std::string marks(const char* colour, int point, double size = 0.9, double width = 1.8, int dash = 1) {
-  return "linespoints lw " + number(width) + " dt " + std::to_string(dash) + " pt " + std::to_string(point) + " ps " +
-         number(size) + " lc rgb '" + colour + "'";
+  return "linespoints lw " + io::gnuplot_number(width) + " dt " + std::to_string(dash) + " pt " +
+         std::to_string(point) + " ps " + io::gnuplot_number(size) + " lc rgb '" + colour + "'";
 }
 std::string line(const char* colour, double width, int dash) {
-  return "lines lw " + number(width) + " dt " + std::to_string(dash) + " lc rgb '" + colour + "'";
+  return "lines lw " + io::gnuplot_number(width) + " dt " + std::to_string(dash) + " lc rgb '" + colour + "'";
 }
 
 constexpr double floor_of_plots = 1e-14;
@@ -40,15 +47,15 @@ Points pick(const std::vector<PathRun>& runs, const Keep& keep, const X& x, cons
 }  // namespace
 
 void draw_increment(const std::vector<PathStudy>& studies, const std::filesystem::path& folder) {
-  Picture picture("speed-increment", 1200, 760);
-  const auto places = grid(2, static_cast<int>(studies.size()), {0.075, 0.985, 0.175, 0.94}, 0.035, 0.085);
-  std::vector<Series> legend;
+  io::Picture picture("speed-increment", 1200, 760);
+  const auto places = io::grid(2, static_cast<int>(studies.size()), {0.075, 0.985, 0.175, 0.94}, 0.035, 0.085);
+  std::vector<io::Series> legend;
   for (int row = 0; row < 2; ++row) {
     for (std::size_t i = 0; i < studies.size(); ++i) {
       const auto& runs = studies[i].runs;
       const auto error = [row](const PathRun& r) { return row == 0 ? r.error.stress : r.error.damage; };
       const auto size = [](const PathRun& r) { return r.increment; };
-      Panel p;
+      io::Panel p = log_log();
       p.title = row == 0 ? studies[i].title : "";
       if (row == 1) p.x_label = "Strain increment";
       if (i == 0) p.y_label = row == 0 ? "Largest stress error / {/Symbol s}_{t0}" : "Largest error of D";
@@ -68,7 +75,7 @@ void draw_increment(const std::vector<PathStudy>& studies, const std::filesystem
                   {"accurate, tolerance 1e-4", marks(green, 9, 1.0), of(Method::accurate, 1e-4)},
                   {"accurate, tolerance 1e-6", marks(purple, 11, 1.0), of(Method::accurate, 1e-6)},
                   {"accurate, tolerance 1e-8", marks(black, 13, 1.0), of(Method::accurate, 1e-8)}};
-      Series failed{"paper: no convergence", "points pt 2 ps 1.1 lw 2 lc rgb '#D55E00'", {}};
+      io::Series failed{"paper: no convergence", "points pt 2 ps 1.1 lw 2 lc rgb '#D55E00'", {}};
       for (const PathRun& r : runs) {
         if (r.method == Method::paper && !r.error.ok() && r.tolerance > 5e-5)
           failed.points.emplace_back(r.increment, 2e-1);
@@ -82,13 +89,13 @@ void draw_increment(const std::vector<PathStudy>& studies, const std::filesystem
     }
   }
   picture.legend(legend, {0.02, 0.98, 0.0, 0.095}, 4);
-  picture.write(folder);
+  picture.write(folder, true);
 }
 
 void draw_time(const std::vector<PathStudy>& studies, const std::filesystem::path& folder) {
-  Picture picture("speed-time", 1240, 860);
-  const auto places = grid(2, static_cast<int>(studies.size()), {0.075, 0.985, 0.165, 0.945}, 0.035, 0.12);
-  std::vector<Series> legend;
+  io::Picture picture("speed-time", 1240, 860);
+  const auto places = io::grid(2, static_cast<int>(studies.size()), {0.075, 0.985, 0.165, 0.945}, 0.035, 0.12);
+  std::vector<io::Series> legend;
   for (int row = 0; row < 2; ++row) {
     for (std::size_t i = 0; i < studies.size(); ++i) {
       const auto& runs = studies[i].runs;
@@ -96,7 +103,7 @@ void draw_time(const std::vector<PathStudy>& studies, const std::filesystem::pat
         return row == 0 ? r.seconds : 1e9 * r.seconds / static_cast<double>(r.error.updates);
       };
       const auto error = [](const PathRun& r) { return r.error.worst(); };
-      Panel p;
+      io::Panel p = log_log();
       p.title = row == 0 ? studies[i].title : "";
       p.x_label = row == 0 ? "CPU time of the whole path (s)" : "Mean CPU time per update (ns)";
       if (i == 0) p.y_label = "Largest error (stress/{/Symbol s}_{t0}, D)";
@@ -127,12 +134,12 @@ void draw_time(const std::vector<PathStudy>& studies, const std::filesystem::pat
     }
   }
   picture.legend(legend, {0.02, 0.98, 0.0, 0.085}, 3);
-  picture.write(folder);
+  picture.write(folder, true);
 }
 
 void draw_tolerance(const std::vector<ToleranceRow>& rows, const std::filesystem::path& folder) {
-  Picture picture("speed-tolerance", 980, 480);
-  Panel p;
+  io::Picture picture("speed-tolerance", 980, 480);
+  io::Panel p = log_log();
   p.x_label = "Requested tolerance";
   p.y_label = "Achieved error (stress/{/Symbol s}_{t0}, D)";
   p.x = {2e-9, 1e-3};
@@ -145,7 +152,7 @@ void draw_tolerance(const std::vector<ToleranceRow>& rows, const std::filesystem
     if (std::find(paths.begin(), paths.end(), r.path) == paths.end()) paths.push_back(r.path);
   }
   for (std::size_t i = 0; i < paths.size(); ++i) {
-    Series s{
+    io::Series s{
         paths[i], "points pt " + std::to_string(points[i % 6]) + " ps 1.0 lw 1.5 lc rgb '" + colours[i % 6] + "'", {}};
     for (const ToleranceRow& r : rows) {
       if (r.path != paths[i]) continue;
@@ -159,15 +166,15 @@ void draw_tolerance(const std::vector<ToleranceRow>& rows, const std::filesystem
   }
   picture.panel(p, {0.1, 0.63, 0.15, 0.96});
   picture.legend(p.series, {0.65, 0.99, 0.15, 0.96}, 1);
-  picture.write(folder);
+  picture.write(folder, true);
 }
 
 void draw_onset(const OnsetStudy& study, const std::filesystem::path& folder) {
-  Picture picture("speed-onset", 1100, 520);
-  const auto places = grid(1, 2, {0.085, 0.98, 0.25, 0.93}, 0.095, 0.0);
-  std::vector<Series> legend;
+  io::Picture picture("speed-onset", 1100, 520);
+  const auto places = io::grid(1, 2, {0.085, 0.98, 0.25, 0.93}, 0.095, 0.0);
+  std::vector<io::Series> legend;
   for (int k = 0; k < 2; ++k) {
-    Panel p;
+    io::Panel p = log_log();
     p.title = k == 0 ? "Orientation of the crack" : "Stress at onset";
     p.x_label = "CPU time per search (ns)";
     p.y_label = k == 0 ? "Largest error of the angle (degrees)" : "Largest relative error";
@@ -189,29 +196,30 @@ void draw_onset(const OnsetStudy& study, const std::filesystem::path& folder) {
                 {"closed form, 3-D", "points pt 9 ps 1.8 lc rgb '#009E73'", of(3, true)}};
     for (const OnsetRow& r : study.rows) {
       if (r.degrees == 0.0 || (r.degrees != 0.1 && r.degrees != 1.0 && r.degrees != 10.0)) continue;
-      p.before += "set label '" + number(r.degrees) + "°' at " + number(r.nanoseconds) + "," +
-                  number(k == 0 ? r.angle_error_deg : r.stress_error) + " offset 0.7,0.6 font ',11' tc rgb '#404040'\n";
+      p.before += "set label '" + io::gnuplot_number(r.degrees) + "°' at " + io::gnuplot_number(r.nanoseconds) + "," +
+                  io::gnuplot_number(k == 0 ? r.angle_error_deg : r.stress_error) +
+                  " offset 0.7,0.6 font ',11' tc rgb '#404040'\n";
     }
     picture.panel(p, places[static_cast<std::size_t>(k)]);
     if (legend.empty()) legend = p.series;
   }
   picture.legend(legend, {0.02, 0.98, 0.0, 0.09}, 4);
-  picture.write(folder);
+  picture.write(folder, true);
 }
 
 void draw_maps(const MapStudy& study, const std::filesystem::path& folder) {
-  Picture picture("speed-isoerror", 1240, 820);
-  const auto places = grid(2, 3, {0.08, 0.88, 0.09, 0.945}, 0.03, 0.07);
+  io::Picture picture("speed-isoerror", 1240, 820);
+  const auto places = io::grid(2, 3, {0.08, 0.88, 0.09, 0.945}, 0.03, 0.07);
   picture.command(
       "set palette defined (0 '#0B2C5C', 1 '#2166AC', 2 '#67A9CF', 3 '#D1E5F0', 4 '#FDDBC7', 5 '#EF8A62', 6 "
       "'#B2182B')\n"
       "set cbrange [-8:0]\nunset colorbox");
   for (std::size_t i = 0; i < study.maps.size(); ++i) {
     const ErrorMap& m = study.maps[i];
-    Panel p;
+    io::Panel p = log_log();
     p.log_x = p.log_y = false;
     p.x = p.y = {study.low, study.high};
-    p.title = std::string(to_string(m.method)) + ", D = " + number(std::round(m.damage * 1e6) * 1e-6);
+    p.title = std::string(to_string(m.method)) + ", D = " + io::gnuplot_number(std::round(m.damage * 1e6) * 1e-6);
     if (i >= 3) p.x_label = "{/Symbol D}u_n / {/Symbol d}_0";
     if (i % 3 == 0) p.y_label = "{/Symbol D}u_s / {/Symbol d}_0";
     p.before = "set format x " + std::string(i >= 3 ? "'10^{%g}'" : "''") + "\nset format y " +
@@ -227,16 +235,16 @@ void draw_maps(const MapStudy& study, const std::filesystem::path& folder) {
     }
     picture.image(p, places[i], study.size, study.low, study.high, m.log10_error, "#9A9A9A", "-6,-4,-2");
   }
-  picture.write(folder);
+  picture.write(folder, true);
 }
 
 void draw_newton(const NewtonStudy& study, const std::filesystem::path& folder) {
-  Picture picture("speed-newton", 1100, 500);
-  const auto places = grid(1, 2, {0.085, 0.98, 0.145, 0.92}, 0.09, 0.0);
+  io::Picture picture("speed-newton", 1100, 500);
+  const auto places = io::grid(1, 2, {0.085, 0.98, 0.145, 0.92}, 0.09, 0.0);
   const char* colours[] = {green, blue, purple, orange, black, vermilion};
   const int points[] = {7, 5, 9, 11, 13, 6};
   for (int k = 0; k < 2; ++k) {
-    Panel p;
+    io::Panel p = log_log();
     p.log_x = false;
     p.title = k == 0 ? "implicit: Newton in (z, a)" : "paper: traction continuity, eq 57-61";
     p.x_label = "Iteration";
@@ -246,7 +254,7 @@ void draw_newton(const NewtonStudy& study, const std::filesystem::path& folder) 
     const auto& histories = k == 0 ? study.implicit : study.paper;
     std::string key;
     for (std::size_t i = 0; i < histories.size(); ++i) {
-      Series s{"", k == 0 ? marks(colours[i % 6], points[i % 6], 1.1) : line(colours[i % 6], 2.2, 1), {}};
+      io::Series s{"", k == 0 ? marks(colours[i % 6], points[i % 6], 1.1) : line(colours[i % 6], 2.2, 1), {}};
       for (std::size_t j = 0; j < histories[i].residuals.size(); ++j) {
         s.points.emplace_back(static_cast<double>(j), std::clamp(histories[i].residuals[j], 1e-18, 1e9));
       }
@@ -254,8 +262,8 @@ void draw_newton(const NewtonStudy& study, const std::filesystem::path& folder) 
       // Name each curve in a column at the right, in its colour.
       key += "set label '" + histories[i].title +
              (histories[i].converged ? "" : (k == 0 ? " (*)" : ": no convergence")) + "' at graph 0.97, graph " +
-             number((k == 0 ? 0.68 : 0.95) - 0.058 * static_cast<double>(i)) + " right tc rgb '" + colours[i % 6] +
-             "'\n";
+             io::gnuplot_number((k == 0 ? 0.68 : 0.95) - 0.058 * static_cast<double>(i)) + " right tc rgb '" +
+             colours[i % 6] + "'\n";
     }
     if (k == 1) {
       p.series.push_back({"", line("#808080", 1.2, 2), {{-5, 1e-4}, {400, 1e-4}}});
@@ -264,15 +272,15 @@ void draw_newton(const NewtonStudy& study, const std::filesystem::path& folder) 
     p.before = key;
     picture.panel(p, places[static_cast<std::size_t>(k)]);
   }
-  picture.write(folder);
+  picture.write(folder, true);
 }
 
 void draw_alternatives(const AlternativeStudy& study, const std::filesystem::path& folder) {
-  Picture picture("speed-alternatives", 1240, 480);
-  const auto places = grid(1, 3, {0.075, 0.985, 0.235, 0.92}, 0.03, 0.0);
-  std::vector<Series> legend;
+  io::Picture picture("speed-alternatives", 1240, 480);
+  const auto places = io::grid(1, 3, {0.075, 0.985, 0.235, 0.92}, 0.03, 0.0);
+  std::vector<io::Series> legend;
   for (int k = 0; k < 3; ++k) {
-    Panel p;
+    io::Panel p = log_log();
     p.title = k == 0   ? "Four stages"
               : k == 1 ? "K_n, K_s 10^6 times larger"
                        : "K_n, K_s 10^6 times larger, to separation";
@@ -301,7 +309,7 @@ void draw_alternatives(const AlternativeStudy& study, const std::filesystem::pat
     if (legend.empty()) legend = p.series;
   }
   picture.legend(legend, {0.02, 0.98, 0.0, 0.1}, 3);
-  picture.write(folder);
+  picture.write(folder, true);
 }
 
 }  // namespace fpz::bench

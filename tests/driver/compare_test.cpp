@@ -15,7 +15,7 @@ const char* const history = "time,sig_xx,D,u_n,status\n0,0,0,0,ok\n1,100,0,0,ok\
 Comparison compare(const std::string& ours, const std::string& theirs, double tolerance = 1e-6) {
   CompareOptions o;
   o.stress_tolerance = o.damage_tolerance = o.jump_tolerance = tolerance;
-  return compare_histories(parse_csv(ours, "ours"), parse_csv(theirs, "theirs"), o);
+  return compare_histories(io::parse_csv(ours, "ours"), io::parse_csv(theirs, "theirs"), o);
 }
 
 TEST(Compare, AcceptsItselfAndTheReferencesNames) {
@@ -55,7 +55,7 @@ TEST(Compare, TakesAGivenStressScale) {
   CompareOptions o;
   o.stress_tolerance = 1e-3;
   o.stress_scale = 1e6;
-  EXPECT_TRUE(compare_histories(parse_csv(history, "a"), parse_csv("T,sxx\n1,200\n", "b"), o).ok());
+  EXPECT_TRUE(compare_histories(io::parse_csv(history, "a"), io::parse_csv("T,sxx\n1,200\n", "b"), o).ok());
 }
 
 }  // namespace

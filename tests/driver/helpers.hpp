@@ -7,31 +7,16 @@
 #include <string>
 
 #include "fpz/driver/run.hpp"
+#include "support/materials.hpp"
 
 namespace fpz::driver {
 
 using PathTest = Test;  // inside a test body, Test is GoogleTest's
 
-inline Parameters johnstone(double rve_length = 4e-3) {
-  Parameters p;
-  p.young_modulus = 0.4e9;
-  p.poisson_ratio = 0.25;
-  p.density = 1540.0;
-  p.tensile_strength = 0.6e6;
-  p.cohesion = 1.0e6;
-  p.friction_angle_deg = 33.0;
-  p.dilation_angle_deg = 4.0;
-  p.delta0 = 18e-6;
-  p.normal_stiffness = 1e13;
-  p.shear_stiffness = 1e11;
-  p.rve_length = rve_length;
-  return p;
-}
-
 inline Test johnstone_test(Setting setting = Setting::plane_strain, double rve_length = 4e-3) {
   Test test;
   test.name = "test";
-  test.parameters = johnstone(rve_length);
+  test.parameters = test::table1(rve_length);
   test.material_name = "Johnstone";
   test.setting = setting;
   return test;

@@ -4,8 +4,8 @@
 
 #include <fstream>
 
-#include "fpz/driver/csv.hpp"
-#include "fpz/driver/output.hpp"
+#include "fpz/io/csv.hpp"
+#include "fpz/io/output.hpp"
 #include "helpers.hpp"
 
 namespace fpz::driver {
@@ -22,7 +22,7 @@ TEST(HistoryFile, HasTheDocumentedColumns) {
 
 TEST(HistoryFile, NumbersSurviveTheRoundTrip) {
   const Result result = run_test(four_stages(100));
-  const Table table = parse_csv(to_csv(result.history), "history");
+  const io::Table table = io::parse_csv(to_csv(result.history), "history");
   ASSERT_EQ(table.rows(), result.history.size());
   for (const Column& c : columns()) {
     if (!c.get) continue;
@@ -40,11 +40,11 @@ TEST(HistoryFile, BeginsWithTheInitialState) {
 }
 
 TEST(Csv, SaysWhatIsWrong) {
-  EXPECT_THROW((void)parse_csv("a,b\n1\n", "x"), InputError);
-  EXPECT_THROW((void)parse_csv("a,b\n", "x"), InputError);
-  EXPECT_THROW((void)read_csv("/nowhere/x.csv"), InputError);
+  EXPECT_THROW((void)io::parse_csv("a,b\n1\n", "x"), InputError);
+  EXPECT_THROW((void)io::parse_csv("a,b\n", "x"), InputError);
+  EXPECT_THROW((void)io::read_csv("/nowhere/x.csv"), InputError);
   try {
-    (void)parse_csv("a,b\n1,2\n", "x.csv").at("c");
+    (void)io::parse_csv("a,b\n1,2\n", "x.csv").at("c");
     FAIL();
   } catch (const InputError& e) {
     EXPECT_NE(std::string(e.what()).find("\"c\""), std::string::npos);
@@ -54,12 +54,12 @@ TEST(Csv, SaysWhatIsWrong) {
 TEST(Output, ReplacesNothingUnlessForced) {
   const TemporaryFolder folder;
   const auto file = folder.path() / "a.txt";
-  write_text(file, "one", false);
-  EXPECT_THROW(write_text(file, "two", false), OutputError);
+  io::write_text(file, "one", false);
+  EXPECT_THROW(io::write_text(file, "two", false), io::OutputError);
   std::string text;
   std::getline(std::ifstream(file), text);
   EXPECT_EQ(text, "one");
-  write_text(file, "two", true);
+  io::write_text(file, "two", true);
   std::getline(std::ifstream(file), text);
   EXPECT_EQ(text, "two");
 }
@@ -69,11 +69,11 @@ TEST(Output, AFailedWriteLeavesNothing) {
   const auto file = folder.path() / "a.txt";
   const auto fail = [](const std::filesystem::path& temporary) {
     std::ofstream(temporary) << "half";
-    throw OutputError("disk full");
+    throw io::OutputError("disk full");
   };
-  EXPECT_THROW(replace_file(file, false, fail), OutputError);
+  EXPECT_THROW(io::replace_file(file, false, fail), io::OutputError);
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
-  EXPECT_THROW(make_writable_folder("/proc/nowhere"), OutputError);
+  EXPECT_THROW(io::make_writable_folder("/proc/nowhere"), io::OutputError);
 }
 
 }  // namespace

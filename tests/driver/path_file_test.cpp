@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "fpz/driver/history.hpp"
+#include "fpz/io/material_file.hpp"
 
 namespace fpz::driver {
 namespace {
@@ -250,12 +251,12 @@ TEST(PathFile, FilesOfTheRepositoryAreValid) {
 
 TEST(MaterialFile, IsReadByItself) {
   std::string name;
-  const Parameters p = read_material_file(FPZ_DATA_DIR "/materials/marble.json", &name);
+  const Parameters p = io::read_material_file(FPZ_DATA_DIR "/materials/marble.json", &name);
   EXPECT_EQ(name, "Marble of the Brazilian ring tests");
   EXPECT_EQ(p.delta0, 8.5e-6);
   EXPECT_EQ(p.rve_length, 0.0);
-  EXPECT_THROW((void)read_material_file(FPZ_DATA_DIR "/materials/none.json"), InputError);
-  EXPECT_THROW((void)read_material_file(FPZ_DATA_DIR "/paths/four_stage.json"), InputError);
+  EXPECT_THROW((void)io::read_material_file(FPZ_DATA_DIR "/materials/none.json"), InputError);
+  EXPECT_THROW((void)io::read_material_file(FPZ_DATA_DIR "/paths/four_stage.json"), InputError);
 }
 
 // ---- what is refused ----

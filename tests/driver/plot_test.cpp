@@ -3,13 +3,13 @@
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
-#include "fpz/driver/output.hpp"
+#include "fpz/io/output.hpp"
 #include "helpers.hpp"
 
 namespace fpz::driver {
 namespace {
 
-Table some_history() { return parse_csv(to_csv(run_test(four_stages(100)).history), "history.csv"); }
+io::Table some_history() { return io::parse_csv(to_csv(run_test(four_stages(100)).history), "history.csv"); }
 
 PlotRequest request(const std::filesystem::path& folder) {
   return {"a 'title' with_underscores", folder, YieldSurface{0.6e6, 1.0e6, 33.0}, false};
@@ -37,7 +37,7 @@ TEST(Plot, DrawsEveryPicture) {
     ASSERT_TRUE(std::filesystem::exists(file)) << file;
     EXPECT_GT(std::filesystem::file_size(file), 1000u) << file;
   }
-  EXPECT_THROW((void)plot_history(some_history(), request(folder.path())), OutputError);
+  EXPECT_THROW((void)plot_history(some_history(), request(folder.path())), io::OutputError);
 }
 
 TEST(Plot, MissingGnuplotIsAWarning) {
@@ -53,7 +53,7 @@ TEST(Plot, AnUncrackedHistoryHasPicturesToo) {
   const TemporaryFolder folder;
   PathTest test = johnstone_test();
   test.stages = {stage(2, {{0, Control::strain, 1e-5}})};
-  const PlotOutcome outcome = plot_history(parse_csv(to_csv(run_test(test).history), "h"), request(folder.path()));
+  const PlotOutcome outcome = plot_history(io::parse_csv(to_csv(run_test(test).history), "h"), request(folder.path()));
   if (outcome.files.empty()) GTEST_SKIP() << outcome.warnings.at(0);
   EXPECT_TRUE(outcome.warnings.empty()) << outcome.warnings.at(0);
 }

@@ -17,7 +17,7 @@ using testing::HasSubstr;
 template <int Dim>
 Capture<Dim> cracked_capture(Setting setting) {
   Capture<Dim> c;
-  c.parameters = johnstone();
+  c.parameters = test::table1();
   c.setting = setting;
   Tensor<double, Dim> d = Tensor<double, Dim>::Zero();
   d[0] = 2e-3;

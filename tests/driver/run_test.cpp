@@ -22,8 +22,8 @@ CompareOptions within(double tolerance) {
 }
 
 Comparison against_reference(const Result& result, double tolerance) {
-  return compare_histories(parse_csv(to_csv(result.history), "history"),
-                           read_csv(FPZ_DATA_DIR "/reference/four_stage.csv"), within(tolerance));
+  return compare_histories(io::parse_csv(to_csv(result.history), "history"),
+                           io::read_csv(FPZ_DATA_DIR "/reference/four_stage.csv"), within(tolerance));
 }
 
 TEST(FourStage, MatchesTheReference) {

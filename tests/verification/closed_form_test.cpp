@@ -56,6 +56,25 @@ TEST(ModeOne, FractureEnergy) {
   }
 }
 
+/// The same when one update opens the crack completely: the sub-steps must resolve the softening, although the scaled
+/// traction does not change at all; and an opening of a metre must not cost a sub-step per delta0.
+TEST(ModeOne, FractureEnergyInOneUpdate) {
+  const Parameters p = table1(4e-3);
+  const CohesiveLaw<double> law = make_cohesive_law(p);
+  Vec<double, 2> onset, du;
+  onset << p.tensile_strength, 0.0;
+  const CohesiveState<double, 2> fresh = cracked_at<double, 2>(law, onset);
+  const double energy = p.tensile_strength * p.delta0;
+  for (const double opening : {1e-6, 20e-6, 100e-6, 1e-3, 1.0}) {
+    du << opening, 0.0;
+    CohesiveState<double, 2> s;
+    const Report report = cohesive_update<double, 2>(law, {}, fresh, du, s);
+    ASSERT_TRUE(report.ok());
+    EXPECT_LT(report.substeps, 50);
+    EXPECT_NEAR(s.dissipated + free_energy(law, s), energy * -std::expm1(-opening / p.delta0), 1e-13 * energy);
+  }
+}
+
 /// With compression the traction stays on the Coulomb-like surface |t_s|^2 = (c - t_n tan phi)^2 - (c - s tan phi)^2,
 /// and for D -> 1 that is friction: |t_s| = -t_n tan phi, the cohesive part being at most w c0.
 TEST(Compression, SlidingFollowsTheSurfaceAndEndsAsFriction) {

@@ -46,6 +46,36 @@ void choose_branch(const CohesiveLaw<P>& law, YieldingPhase<T, Dim, P>& phase, c
   phase.branch.tension = heading >= 0.0;
 }
 
+/// Largest inelastic displacement of one step, in units of delta0: tau_s may be known so well that its error allows
+/// more, but the dissipated energy needs the softening in between.
+inline constexpr double largest_softening_step = 1.0;
+/// Integrity below which the energy that is left does not count.
+inline constexpr double negligible_integrity = 1e-14;
+
+/// Energy dissipated in an accepted step of length h from (y, f) to (y1, f1), J/m^2. Fourth order, as the solution is,
+/// from the ends and the cubic Hermite mid-point: Simpson's rule, or, where the step softens noticeably, the quadratic
+/// through the three points as a function of w, which is exact for pure opening.
+template <class T, int Dim, class P>
+[[nodiscard]] T step_dissipation(const CohesiveLaw<P>& law, const YieldingPhase<T, Dim, P>& phase,
+                                 const RatePoint<T, Dim - 1>& r, const Vec<T, Dim>& y, const Vec<T, Dim>& f,
+                                 const RatePoint<T, Dim - 1>& r1, const Vec<T, Dim>& y1, const Vec<T, Dim>& f1,
+                                 const T& h) {
+  constexpr int NS = Dim - 1;
+  const T whole = r.w - r1.w;
+  if (value(r.w) < negligible_integrity) return whole * law.delta0 * 0.5 * (phase.density(r) + phase.density(r1));
+  const Vec<T, Dim> middle = (y + y1) * T(0.5) + (f - f1) * T(h / 8.0);
+  const RatePoint<T, NS> rm = phase.point(middle);
+  if (value(y1[NS]) - value(y[NS]) < 1e-3 * value(law.delta0)) {  // differences of w would lose digits
+    const Vec<T, Dim> fm = phase.rates(rm);
+    return (phase.power(r, f[NS]) + 4.0 * phase.power(rm, fm[NS]) + phase.power(r1, f1[NS])) * T(h / 6.0);
+  }
+  const T first = (r.w - rm.w) / whole;
+  const T second = 1.0 - first;
+  const T sum = (2.0 - second / first) * phase.density(r) + phase.density(rm) / (first * second) +
+                (2.0 - first / second) * phase.density(r1);
+  return whole * law.delta0 * sum / 6.0;
+}
+
 /// Runs one yielding phase from `fraction` until the increment ends or the point unloads.
 template <class T, int Dim, class P>
 [[nodiscard]] Yielded<T, Dim> run_yielding(const CohesiveLaw<P>& law, YieldingPhase<T, Dim, P>& phase, Vec<T, Dim> y,
@@ -80,6 +110,11 @@ template <class T, int Dim, class P>
       if (step < 1e-13) return stop(stuck());
       continue;
     }
+    const double softening = (value(trial.y[NS]) - value(y[NS])) / value(law.delta0);
+    if (softening > largest_softening_step && value(r.w) > negligible_integrity) {
+      step = value(h) * 0.9 * largest_softening_step / softening;
+      continue;
+    }
     RatePoint<T, NS> r1 = phase.point(trial.y);
     if (!(value(r1.h) > 0.0)) {
       step = 0.1 * value(h);
@@ -100,11 +135,7 @@ template <class T, int Dim, class P>
       }
     }
     const Vec<T, Dim> f1 = phase.rates(r1);
-    // Cubic Hermite mid-point and Simpson's rule: fourth order, as the solution is.
-    const Vec<T, Dim> middle = (y + trial.y) * T(0.5) + (f - f1) * T(h / 8.0);
-    const RatePoint<T, NS> rm = phase.point(middle);
-    const Vec<T, Dim> fm = phase.rates(rm);
-    out.dissipated += (phase.power(r, f[NS]) + 4.0 * phase.power(rm, fm[NS]) + phase.power(r1, f1[NS])) * T(h / 6.0);
+    out.dissipated += step_dissipation<T, Dim>(law, phase, r, y, f, r1, trial.y, f1, h);
     y = trial.y;
     fraction = last && fired < 0 ? T(1.0) : T(fraction + h);
     ++report.substeps;

@@ -39,9 +39,10 @@ class YieldingPhase {
   [[nodiscard]] const Shear& rate_s() const { return rate_s_; }
 
   /// Dissipated energy per unit of the increment at a point with inelastic rate a'.
-  [[nodiscard]] T power(const RatePoint<T, NS>& r, const T& a_rate) const {
-    return r.w * a_rate * dissipation_density(law_, r.hyp, r.shear, r.inv);
-  }
+  [[nodiscard]] T power(const RatePoint<T, NS>& r, const T& a_rate) const { return r.w * a_rate * density(r); }
+
+  /// The same per unit of (w da).
+  [[nodiscard]] T density(const RatePoint<T, NS>& r) const { return dissipation_density(law_, r.hyp, r.shear, r.inv); }
 
   /// One RODAS step of size h from y0, whose coefficients `r0` and rates `f0` are given. Undefined where a stage meets
   /// h <= 0: the rate problem has no unique solution there.

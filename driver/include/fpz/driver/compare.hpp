@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "fpz/driver/csv.hpp"
+#include "fpz/io/csv.hpp"
 
 namespace fpz::driver {
 
@@ -40,6 +40,7 @@ struct Comparison {
 
 /// Compares every known column of the reference. Rows are matched by time; names are those of history.csv or
 /// T,sxx,..,D,tn,ts1,ts2,un,us1,us2.
-[[nodiscard]] Comparison compare_histories(const Table& history, const Table& reference, const CompareOptions& options);
+[[nodiscard]] Comparison compare_histories(const io::Table& history, const io::Table& reference,
+                                           const CompareOptions& options);
 
 }  // namespace fpz::driver

@@ -5,11 +5,11 @@
 #include <cstddef>
 #include <filesystem>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "fpz/io/input_error.hpp"
 #include "fpz/options.hpp"
 #include "fpz/parameters.hpp"
 
@@ -29,12 +29,7 @@ inline constexpr std::array<std::string_view, 32> stop_quantities = {
     "D", "energy_stored", "energy_dissipated", "iterations", "energy_work"};
 // clang-format on
 
-/// Bad input: what() has one line per problem, which names the file, the place in it (line and key path), the value,
-/// and the constraint or nearest valid name.
-class InputError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
+using io::InputError;
 
 /// How one component is controlled during a stage.
 enum class Control {
@@ -102,15 +97,11 @@ struct PathFile {
   std::vector<Test> tests;
 };
 
-/// What a file may ask for at most, so that a slip (or malice) ends in a message and not in exhausted memory.
-struct Limits {
-  std::size_t bytes = std::size_t{64} << 20;  ///< size of a path or material file
-  std::size_t depth = 64;                     ///< nesting of objects and arrays
-  std::size_t values = 2'000'000;             ///< JSON values in a file
-  std::size_t tests = 10'000;                 ///< tests in a file
-  double stages = 1e6;                        ///< stages of all tests together, repetitions expanded
-  double increments = 1e9;                    ///< increments of all tests together
-  std::size_t problems = 100;                 ///< reading stops when so many problems were found
+/// What a path file may ask for at most.
+struct Limits : io::ReadLimits {
+  std::size_t tests = 10'000;  ///< tests in a file
+  double stages = 1e6;         ///< stages of all tests together, repetitions expanded
+  double increments = 1e9;     ///< increments of all tests together
 };
 
 /// Reads and validates a path file; material files are looked up relative to it. Throws InputError listing every
@@ -121,9 +112,5 @@ struct Limits {
 /// material files.
 [[nodiscard]] PathFile parse_path_file(std::string_view text, const std::filesystem::path& origin,
                                        const Limits& limits = {});
-
-/// Reads and validates a material file (keys as in data/materials). `rve_length` is left at 0. Without a key "name" the
-/// name is that of the file.
-[[nodiscard]] Parameters read_material_file(const std::filesystem::path& file, std::string* name = nullptr);
 
 }  // namespace fpz::driver

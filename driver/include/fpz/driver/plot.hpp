@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "fpz/driver/csv.hpp"
+#include "fpz/io/csv.hpp"
 
 namespace fpz::driver {
 
@@ -34,7 +34,7 @@ struct PlotOutcome {
 
 /// Draws all pictures. A missing gnuplot or a picture that did not come out is a warning, never an exception; a file
 /// that exists already and may not be replaced throws OutputError.
-[[nodiscard]] PlotOutcome plot_history(const Table& history, const PlotRequest& request);
+[[nodiscard]] PlotOutcome plot_history(const io::Table& history, const PlotRequest& request);
 
 /// Title and yield surface from a summary.json; the file need not exist.
 void read_plot_facts(const std::filesystem::path& summary, PlotRequest& request);

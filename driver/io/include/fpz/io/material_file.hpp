@@ -1,0 +1,65 @@
+// Material parameters from JSON, inline or from a file of their own, with the place of every value for later
+// complaints.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "fpz/io/input_reader.hpp"
+#include "fpz/parameters.hpp"
+
+namespace fpz::io {
+
+struct MaterialKey {
+  std::string_view name;
+  double Parameters::*member;
+};
+
+/// The keys of a material; all are required.
+inline constexpr std::array<MaterialKey, 10> material_keys = {{
+    {"young_modulus", &Parameters::young_modulus},
+    {"poisson_ratio", &Parameters::poisson_ratio},
+    {"density", &Parameters::density},
+    {"tensile_strength", &Parameters::tensile_strength},
+    {"cohesion", &Parameters::cohesion},
+    {"friction_angle_deg", &Parameters::friction_angle_deg},
+    {"dilation_angle_deg", &Parameters::dilation_angle_deg},
+    {"delta0", &Parameters::delta0},
+    {"normal_stiffness", &Parameters::normal_stiffness},
+    {"shear_stiffness", &Parameters::shear_stiffness},
+}};
+
+/// Where a value stands.
+struct Location {
+  std::string file;
+  std::size_t line = 0;
+  std::string path;
+};
+
+struct Material {
+  Parameters parameters;  ///< rve_length is 0
+  std::string name;
+  std::array<Location, material_keys.size()> locations;  ///< in the order of material_keys
+};
+
+/// The material at `place`; nothing when a value is missing or of a wrong type. `name` is used when it has none.
+[[nodiscard]] std::optional<Material> read_material(const InputReader& reader, const Place& place, std::string name);
+
+/// The material in a file, which messages call `shown_as`.
+[[nodiscard]] std::optional<Material> load_material(const std::filesystem::path& file, const std::string& shown_as,
+                                                    const ReadLimits& limits, Problems& problems, std::string& error);
+
+/// Applies fpz::validate(). Errors become problems at the places of the values, warnings are returned. Without
+/// `rve_length` the constraints that do not need it are checked.
+std::vector<std::string> check_material(const Material& material, const Parameters& parameters, Setting setting,
+                                        const std::optional<Location>& rve_length, Problems& problems);
+
+/// Reads and validates a material file (keys as in data/materials). `rve_length` is left at 0. Without a key "name" the
+/// name is that of the file.
+[[nodiscard]] Parameters read_material_file(const std::filesystem::path& file, std::string* name = nullptr);
+
+}  // namespace fpz::io

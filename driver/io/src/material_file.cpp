@@ -1,0 +1,111 @@
+#include "fpz/io/material_file.hpp"
+
+#include <algorithm>
+
+namespace fpz::io {
+namespace {
+
+using Kind = JsonValue::Kind;
+
+constexpr std::size_t longest_name = 200;
+constexpr std::array<std::string_view, 4> text_keys = {"name", "source", "units", "notes"};
+
+std::vector<std::string_view> all_keys() {
+  std::vector<std::string_view> keys;
+  for (const MaterialKey& key : material_keys) keys.push_back(key.name);
+  keys.insert(keys.end(), text_keys.begin(), text_keys.end());
+  return keys;
+}
+
+/// Keys for other programs, which this one does not look into: where a calibrated material comes from, and "x_...".
+bool is_foreign(const JsonValue& member) { return member.key == "provenance" || member.key.starts_with("x_"); }
+
+void check_texts(const InputReader& reader, const Place& place) {
+  for (const JsonValue& member : place.value().items) {
+    const bool is_text = std::find(text_keys.begin(), text_keys.end(), member.key) != text_keys.end();
+    const char* expected = nullptr;
+    if (is_text && !member.is(Kind::string)) expected = "a string";
+    if (member.key == "provenance" && !member.is(Kind::object)) expected = "an object";
+    if (expected != nullptr) {
+      reader.problem(Place(place, member), "expected " + std::string(expected) + ", found " + member.description());
+    }
+  }
+}
+
+std::string line_of(const Location& at, const Violation& v) {
+  return at.path + " = " + exact(v.value) + ": " + v.constraint;
+}
+
+}  // namespace
+
+std::optional<Material> read_material(const InputReader& reader, const Place& place, std::string name) {
+  if (!reader.object(place, "the parameters of a material")) return std::nullopt;
+  const std::size_t before = reader.problems().size();
+  reader.known_keys(place, all_keys(), is_foreign);
+  check_texts(reader, place);
+
+  Material material;
+  material.name = std::move(name);
+  bool complete = true;
+  for (std::size_t k = 0; k < material_keys.size(); ++k) {
+    const JsonValue* value = reader.required(place, material_keys[k].name);
+    const std::optional<double> x = value != nullptr ? reader.number(Place(place, *value)) : std::nullopt;
+    complete = complete && x;
+    if (!x) continue;
+    material.parameters.*material_keys[k].member = *x;
+    material.locations[k] = {reader.file(), value->line, Place(place, *value).path()};
+  }
+  const JsonValue* given = place.value().find("name");
+  if (given != nullptr && given->is(Kind::string)) {
+    if (const auto text = reader.text(Place(place, *given), longest_name)) material.name = *text;
+  }
+  if (!complete || reader.problems().size() != before) return std::nullopt;
+  return material;
+}
+
+std::optional<Material> load_material(const std::filesystem::path& file, const std::string& shown_as,
+                                      const ReadLimits& limits, Problems& problems, std::string& error) {
+  std::string text;
+  if (!load_text(file, FileKind::regular, limits, text, error)) return std::nullopt;
+  JsonValue root;
+  if (!parse_json(text, shown_as, limits, problems, root)) return std::nullopt;
+  return read_material(InputReader(shown_as, limits, problems), Place(root), file.stem().string());
+}
+
+std::vector<std::string> check_material(const Material& material, const Parameters& parameters, Setting setting,
+                                        const std::optional<Location>& rve_length, Problems& problems) {
+  const auto location = [&](const std::string& field) -> const Location* {
+    for (std::size_t k = 0; k < material_keys.size(); ++k) {
+      if (material_keys[k].name == field) return &material.locations[k];
+    }
+    return rve_length ? &*rve_length : nullptr;
+  };
+  const Validation result = validate(parameters, setting);
+  for (const Violation& v : result.errors) {
+    if (const Location* at = location(v.field)) problems.add(at->file, at->line, line_of(*at, v));
+  }
+  std::vector<std::string> warnings;
+  for (const Violation& v : result.warnings) {
+    const Location* at = location(v.field);
+    if (at == nullptr) continue;
+    warnings.push_back(at->file + ':' + std::to_string(at->line) + ": " + line_of(*at, v));
+  }
+  return warnings;
+}
+
+Parameters read_material_file(const std::filesystem::path& file, std::string* name) {
+  const ReadLimits limits;
+  Problems problems(limits.problems);
+  std::string error;
+  const auto material = load_material(file, file.string(), limits, problems, error);
+  if (!error.empty()) throw InputError(file.string() + ": cannot read material file: " + error);
+  problems.throw_if_any();
+  if (!material) throw InputError(file.string() + ": no material");
+  // The setting only moves the bound of rve_length, which a material file does not have.
+  (void)check_material(*material, material->parameters, Setting::plane_strain, std::nullopt, problems);
+  problems.throw_if_any();
+  if (name != nullptr) *name = material->name;
+  return material->parameters;
+}
+
+}  // namespace fpz::io
