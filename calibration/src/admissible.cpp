@@ -7,8 +7,10 @@ std::string why_inadmissible(Parameters p, Setting setting, bool with_length) {
   if (!with_length) p.rve_length = 1.0;
   const Validation found = validate(p, setting);
   if (found.ok()) return {};
-  return "these parameters break a constraint of the model: " +
-         Validation{.errors = found.errors, .warnings = {}}.report();
+  std::string text = "these parameters break a constraint of the model: ";
+  text += Validation{.errors = found.errors, .warnings = {}}.report();
+  text.pop_back();  // the end of the last line
+  return text;
 }
 
 }  // namespace fpz::calibration

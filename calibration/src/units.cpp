@@ -16,6 +16,7 @@ const std::vector<Unit>& units(Quantity q) {
       {"Pa.sqrt(m)", 1.0}, {"kPa.sqrt(m)", 1e3}, {"MPa.sqrt(m)", 1e6}, {"MPa.sqrt(mm)", 1e6 * root_milli}};
   static const std::vector<Unit> stiffness = {{"Pa/m", 1.0},   {"MPa/m", 1e6},   {"GPa/m", 1e9},
                                               {"MPa/mm", 1e9}, {"GPa/mm", 1e12}, {"N/mm3", 1e9}};
+  static const std::vector<Unit> density = {{"kg/m3", 1.0}, {"g/cm3", 1e3}, {"t/m3", 1e3}};
   static const std::vector<Unit> angle = {{"deg", 1.0}, {"rad", 180.0 / std::numbers::pi}};
   static const std::vector<Unit> number = {{"", 1.0}, {"%", 1e-2}, {"1e-3", 1e-3}, {"1e-6", 1e-6}};
   switch (q) {
@@ -31,6 +32,8 @@ const std::vector<Unit>& units(Quantity q) {
       return toughness;
     case Quantity::stiffness:
       return stiffness;
+    case Quantity::density:
+      return density;
     case Quantity::angle:
       return angle;
     case Quantity::number:

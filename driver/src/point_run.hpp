@@ -5,8 +5,10 @@
 #include <functional>
 #include <numbers>
 #include <sstream>
+#include <vector>
 
 #include "fpz/driver/run.hpp"
+#include "fpz/driver/trace.hpp"
 #include "stage_control.hpp"
 
 namespace fpz::driver {
@@ -19,11 +21,13 @@ class PointRun {
   /// Called after every accepted step under strain or mixed control: begin state, strain increment, time.
   using StepHook = std::function<void(const Point& begin, const Strain& dstrain, double time)>;
 
-  PointRun(const Test& test, Observer observer, StepHook hook = {})
+  /// `trace`, when given, receives the steps that lead from row to row.
+  PointRun(const Test& test, Observer observer, StepHook hook = {}, std::vector<TracedStep<Dim>>* trace = nullptr)
       : test_(test),
         material_(make_material(test.parameters, test.setting)),
         observer_(std::move(observer)),
-        hook_(std::move(hook)) {}
+        hook_(std::move(hook)),
+        trace_(trace) {}
 
   [[nodiscard]] Result run() {
     const auto started = std::chrono::steady_clock::now();
@@ -45,6 +49,7 @@ class PointRun {
     double work = 0.0;
     double fracture_work = 0.0;
     std::optional<Onset> onset;
+    std::vector<TracedStep<Dim>> steps;  ///< since the last row; only with a trace
   };
 
   static constexpr int most_halvings = 20;
@@ -128,6 +133,7 @@ class PointRun {
     }
     if (hook_ && !control_->jump_controlled()) hook_(now_.point, Strain(end.strain - now_.point.strain), time(target));
     account(end, step.report.onset, target);
+    if (trace_) now_.steps.push_back({stage_ - 1, now_.s, target, now_.point, end});
     now_.point = end;
     now_.rate = rate;
     now_.s = target;
@@ -302,6 +308,10 @@ class PointRun {
 
   void record(int stage_number, int increment, double at, int iterations, const std::string& status) {
     result_.history.push_back(row(stage_number, increment, at, iterations, status));
+    if (trace_) {
+      trace_->insert(trace_->end(), now_.steps.begin(), now_.steps.end());
+      now_.steps.clear();
+    }
     if (observer_) observer_({stage_number, static_cast<int>(test_.stages.size()), at, result_.history.back().damage});
   }
 
@@ -380,6 +390,7 @@ class PointRun {
   const Material<double> material_;
   Observer observer_;
   StepHook hook_;
+  std::vector<TracedStep<Dim>>* trace_;
   Result result_;
   Snapshot now_;
   std::optional<StageControl<Dim>> control_;

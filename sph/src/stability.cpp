@@ -13,7 +13,7 @@ namespace detail {
 template <int Dim>
 double Engine<Dim>::largest_frequency() {
   constexpr int iterations = 400;
-  constexpr double settled = 1e-5;  // relative change per iteration; the estimate rises monotonically
+  constexpr double settled = 1e-4;  // relative change per iteration; the estimate rises monotonically
   constexpr double strain = 1e-6;   // small against one: the polar decomposition is linear there
   Particles<Dim>& p = particles;
   const double amplitude = strain * scene.arrangement.spacing;

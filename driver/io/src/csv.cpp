@@ -67,6 +67,7 @@ Table parse_csv(std::string_view text, const std::string& origin) {
                        " cells, the header has " + std::to_string(table.names.size()));
     }
     for (std::size_t k = 0; k < cells.size(); ++k) table.columns[k].push_back(to_number(cells[k]));
+    table.lines.push_back(number);
   }
   if (table.rows() == 0) throw InputError(origin + ": no rows");
   return table;

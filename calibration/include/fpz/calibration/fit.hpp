@@ -48,7 +48,9 @@ struct Observations {
   Eigen::VectorXd deviation;  ///< standard deviation of each value, > 0
   /// False: only the ratios of the deviations are known, their common factor is estimated from the residuals.
   bool deviation_known = false;
-  double weight = 1.0;  ///< > 0; multiplies the squared residuals of the whole set
+  /// > 0; multiplies the squared residuals of the whole set. It says how much the set counts in the estimate and
+  /// nothing about its noise: standard errors and intervals are those of the weighted estimate under the stated noise.
+  double weight = 1.0;
   Loss loss;
   Forward forward;
 };
@@ -60,8 +62,8 @@ struct FitProblem {
 
 /// What is going on, for a progress line.
 struct FitProgress {
-  std::string stage;  ///< "start 2 of 8", "profile of delta0", ...
-  double fraction = 0.0;
+  std::string stage;      ///< "start 2 of 8", "profile of delta0", ...
+  double fraction = 0.0;  ///< of this stage
   double cost = 0.0;
 };
 
@@ -124,6 +126,7 @@ enum class FitStatus {
   failed          ///< the forward models gave no prediction at the start
 };
 
+/// With FitStatus::failed only message, values (the start) and starts are filled.
 struct FitResult {
   FitStatus status = FitStatus::failed;
   std::string message;  ///< status in words, with the way out where there is one
@@ -136,10 +139,13 @@ struct FitResult {
   Eigen::VectorXd upper_limit;
   std::vector<int> at_lower_bound;
   std::vector<int> at_upper_bound;
-  Eigen::VectorXd singular_values;
+  Eigen::VectorXd gradient;         ///< d cost / d parameter; not zero only at bounds
+  Eigen::MatrixXd information;      ///< inverse covariance, with the parameters at bounds as if they were free
+  Eigen::VectorXd singular_values;  ///< of the parameters that are not at bounds, largest first
   std::vector<UndeterminedDirection> undetermined;
   double cost = 0.0;
-  double degrees_of_freedom = 0.0;
+  double degrees_of_freedom = 0.0;        ///< values and priors less fitted parameters (with weights: expected chi^2)
+  double noise_degrees_of_freedom = 0.0;  ///< behind the estimated noise; infinite when all deviations are known
   std::vector<DataSetResult> data;
   std::vector<StartResult> starts;
   int distinct_minima = 1;
@@ -152,11 +158,13 @@ struct FitResult {
 /// Checks the problem; throws std::invalid_argument naming the data set or parameter and the broken constraint.
 void require_valid(const FitProblem& problem);
 
-/// Fits all data together with Ceres (trust region, bounds) from several starts.
+/// Fits all data together with Ceres (trust region, bounds) from several starts; docs/calibration-statistics.md says
+/// what is computed. Deterministic. Throws what require_valid throws; everything else is said in status and message.
 [[nodiscard]] FitResult fit(const FitProblem& problem, const FitOptions& options = {});
 
 /// Is `truth` inside the joint confidence region of the fitted parameters (ellipsoid from the Jacobian, F or
-/// chi-squared quantile)?
+/// chi-squared quantile)? With active bounds the region is that of the cost, gradient included, and ends at the
+/// bounds. Directions that the data leave open do not count. Throws std::invalid_argument when the sizes differ.
 [[nodiscard]] bool inside_confidence_region(const FitResult& result, const Eigen::VectorXd& truth, double confidence);
 
 }  // namespace fpz::calibration

@@ -7,7 +7,7 @@
 
 namespace fpz::calibration {
 
-enum class Quantity { length, force, stress, energy_per_area, toughness, stiffness, angle, number };
+enum class Quantity { length, force, stress, energy_per_area, toughness, stiffness, density, angle, number };
 
 /// A unit's name and the factor that turns a value in it into SI (angles: into degrees).
 struct Unit {

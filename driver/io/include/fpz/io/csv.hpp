@@ -13,6 +13,7 @@ struct Table {
   std::string origin;  ///< file name, for messages
   std::vector<std::string> names;
   std::vector<std::vector<double>> columns;  ///< cells that are no numbers are NaN
+  std::vector<std::size_t> lines;            ///< of the rows in the file, counted from 1
 
   [[nodiscard]] std::size_t rows() const { return columns.empty() ? 0 : columns.front().size(); }
   /// The column of that name, or null.

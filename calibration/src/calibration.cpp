@@ -1,0 +1,280 @@
+#include "fpz/calibration/calibration.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fpz/calibration/notched_specimen.hpp"
+#include "report/display.hpp"
+
+namespace fpz::calibration {
+namespace {
+
+/// Which unknowns a data set's prediction depends on.
+struct Unknowns {
+  std::vector<int> material;  ///< index in `parameter_info` of each fitted material parameter, in order
+  Eigen::Index first_nuisance = 0;
+  Eigen::Index nuisances = 0;
+};
+
+std::vector<int> fitted_parameters(const Specification& spec) {
+  std::vector<int> fitted;
+  for (int k = 0; k < parameter_count; ++k) {
+    if (spec.parameters[static_cast<std::size_t>(k)].fitted) fitted.push_back(k);
+  }
+  return fitted;
+}
+
+Parameters with_values(Parameters p, const std::vector<int>& fitted, const Eigen::VectorXd& x) {
+  for (std::size_t k = 0; k < fitted.size(); ++k) {
+    p.*parameter_info[static_cast<std::size_t>(fitted[k])].member = x[static_cast<Eigen::Index>(k)];
+  }
+  return p;
+}
+
+/// The model as a function of all unknowns: picks the values out and puts the derivatives in their columns.
+Forward make_forward(const Parameters& base, const Model& model, const Unknowns& which) {
+  return [base, model, which](const Eigen::VectorXd& x, bool derivatives) {
+    const Eigen::VectorXd nuisance = x.segment(which.first_nuisance, which.nuisances);
+    Prediction inner = model(with_values(base, which.material, x), nuisance, derivatives);
+    if (!inner.ok() || !derivatives) return inner;
+    Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(inner.values.size(), x.size());
+    for (std::size_t k = 0; k < which.material.size(); ++k) {
+      jacobian.col(static_cast<Eigen::Index>(k)) = inner.jacobian.col(which.material[k]);
+    }
+    jacobian.middleCols(which.first_nuisance, which.nuisances) = inner.jacobian.rightCols(which.nuisances);
+    inner.jacobian = std::move(jacobian);
+    return inner;
+  };
+}
+
+FitParameter make_parameter(const Specification& spec, int index) {
+  const ParameterSetting& s = spec.parameters[static_cast<std::size_t>(index)];
+  const ParameterInfo& which = parameter_info[static_cast<std::size_t>(index)];
+  FitParameter p;
+  p.name = which.name;
+  p.symbol = which.symbol;
+  p.unit = which.unit;
+  p.start = s.value;
+  p.lower = s.lower;
+  p.upper = s.upper;
+  p.prior = s.prior;
+  return p;
+}
+
+/// Half width of a confidence interval in standard errors, as the fit used it; 0 when it gave none.
+double interval_factor(const FitResult& r) {
+  for (Eigen::Index k = 0; k < std::min(r.standard_error.size(), r.upper_limit.size()); ++k) {
+    const double factor = (r.upper_limit[k] - r.lower_limit[k]) / (2.0 * r.standard_error[k]);
+    if (r.standard_error[k] > 0.0 && std::isfinite(factor)) return factor;
+  }
+  return 0.0;
+}
+
+void measure(Comparison& c, const DataSet& set) {
+  c.residuals = c.predicted - set.measured;
+  c.measured_peak = set.measured.maxCoeff();
+  c.predicted_peak = c.predicted.maxCoeff();
+  c.peak_error = c.predicted_peak / c.measured_peak - 1.0;
+  c.rms_over_peak = std::sqrt(c.residuals.squaredNorm() / static_cast<double>(c.residuals.size())) / c.measured_peak;
+}
+
+Comparison predict_unfitted(const DataSet& set, const Calibration& all, const std::vector<int>& fitted) {
+  Comparison c;
+  Eigen::VectorXd nuisance(static_cast<Eigen::Index>(set.nuisances.size()));
+  for (std::size_t k = 0; k < set.nuisances.size(); ++k) {
+    nuisance[static_cast<Eigen::Index>(k)] = set.nuisances[k].start;
+  }
+  const auto count = static_cast<Eigen::Index>(fitted.size());
+  const bool certain = all.result.covariance.rows() >= count && all.result.covariance.allFinite();
+  const Prediction x = set.model(all.parameters, nuisance, certain);
+  c.failure = x.failure;
+  if (!x.ok()) return c;
+  c.predicted = x.values;
+  c.deviation = set.deviation;
+  c.band = Eigen::VectorXd::Zero(x.values.size());
+  if (certain) {
+    const Eigen::MatrixXd j = x.jacobian(Eigen::all, fitted);
+    const Eigen::MatrixXd covariance = all.result.covariance.topLeftCorner(count, count);
+    const Eigen::VectorXd variance = (j * covariance).cwiseProduct(j).rowwise().sum();
+    c.band = interval_factor(all.result) * variance.cwiseMax(0.0).cwiseSqrt();
+  }
+  measure(c, set);
+  return c;
+}
+
+std::vector<Comparison> compare_all(const Calibration& all, const std::vector<int>& fitted) {
+  std::vector<Comparison> list;
+  std::size_t next = 0;  // of the results, which follow the fitted sets
+  for (std::size_t k = 0; k < all.specification.data.size(); ++k) {
+    const DataSet& set = all.specification.data[k];
+    Comparison c;
+    if (set.role == Role::predict) {
+      c = predict_unfitted(set, all, fitted);
+    } else if (next < all.result.data.size()) {
+      const DataSetResult& r = all.result.data[next++];
+      if (r.predicted.size() == set.measured.size()) {
+        c.predicted = r.predicted;
+        c.deviation = r.deviation;
+        c.band = r.band;
+        measure(c, set);
+      } else {
+        c.failure = "the fit gave no prediction";
+      }
+    } else {
+      c.failure = "the fit gave no prediction";
+    }
+    c.data_set = k;
+    list.push_back(std::move(c));
+  }
+  return list;
+}
+
+/// Values that follow from the parameters, with errors to first order from the covariance.
+std::vector<Derived> derive(const Calibration& all, const std::vector<int>& fitted) {
+  const Setting setting = all.specification.setting;
+  struct Formula {
+    const char* name;
+    const char* symbol;
+    const char* unit;
+    std::function<double(const Parameters&)> value;
+  };
+  const std::vector<Formula> formulas = {
+      {"mode I fracture energy", "G_I = sigma_t0 delta0", "N/m",
+       [](const Parameters& p) { return p.tensile_strength * p.delta0; }},
+      {"mode I toughness that goes with it", "K_Ic", "Pa.sqrt(m)",
+       [setting](const Parameters& p) {
+         return toughness_from_energy(p.tensile_strength * p.delta0, p.young_modulus, p.poisson_ratio, setting);
+       }},
+      {"characteristic length", "l_ch = E G_I/sigma_t0^2", "m",
+       [](const Parameters& p) { return p.young_modulus * p.delta0 / p.tensile_strength; }},
+      {"largest RVE length without snap-back in mode I", "H_max", "m",
+       [setting](const Parameters& p) { return snap_back_length(p, setting); }},
+      {"uniaxial tensile strength", "sigma_t", "Pa", [](const Parameters& p) { return uniaxial_tensile_strength(p); }},
+  };
+  const auto count = static_cast<Eigen::Index>(fitted.size());
+  const bool certain = all.result.covariance.rows() >= count && all.result.covariance.allFinite();
+  std::vector<Derived> list;
+  for (const Formula& f : formulas) {
+    Derived d{f.name, f.symbol, f.unit, f.value(all.parameters), NAN};
+    if (certain) {
+      Eigen::VectorXd slope(count);
+      for (Eigen::Index k = 0; k < count; ++k) {  // smooth closed forms: central differences are good to 1e-9
+        const auto member = parameter_info[static_cast<std::size_t>(fitted[static_cast<std::size_t>(k)])].member;
+        const double step = 1e-5 * all.parameters.*member;
+        Parameters up = all.parameters, down = all.parameters;
+        up.*member += step;
+        down.*member -= step;
+        slope[k] = (f.value(up) - f.value(down)) / (2.0 * step);
+      }
+      d.standard_error = std::sqrt(std::max(0.0, slope.dot(all.result.covariance.topLeftCorner(count, count) * slope)));
+    }
+    list.push_back(std::move(d));
+  }
+  return list;
+}
+
+double energy_of(const DataSet& set, const Parameters& p, Setting setting) {
+  if (set.energy) return *set.energy;
+  return energy_from_toughness(*set.toughness, p.young_modulus, p.poisson_ratio, setting);
+}
+
+std::optional<TwoEnergies> confront_energies(const Calibration& all) {
+  const DataSet* one = nullptr;
+  const DataSet* two = nullptr;
+  for (const DataSet& set : all.specification.data) {
+    if (!set.fracture_energy) continue;
+    const DataSet*& place = set.fracture_energy->path == FracturePath::opening ? one : two;
+    if (place == nullptr) place = &set;
+  }
+  if (one == nullptr || two == nullptr) return std::nullopt;
+  Parameters p = all.parameters;
+  p.rve_length = 1.0;
+  const Setting setting = all.specification.setting;
+  return compare_energies(*one->fracture_energy, energy_of(*one, p, setting), *two->fracture_energy,
+                          energy_of(*two, p, setting), p, default_ranges(p));
+}
+
+void add_warnings(Calibration& all) {
+  all.warnings = all.specification.warnings;
+  all.warnings.insert(all.warnings.end(), all.result.warnings.begin(), all.result.warnings.end());
+  const auto notched = [](const DataSet& d) { return d.is_notched; };
+  if (std::any_of(all.specification.data.begin(), all.specification.data.end(), notched)) {
+    const std::string text = mode_one_warning(all.parameters);
+    if (!text.empty()) all.warnings.push_back(text);
+  }
+  if (all.energies && all.energies->ok() && !all.energies->consistent) {
+    all.warnings.push_back("one delta0 cannot match both fracture energies: the mode I energy alone gives " +
+                           detail::shown_value(all.energies->delta0_one, "m") + ", the other alone " +
+                           detail::shown_value(all.energies->delta0_two, "m"));
+  }
+  for (const Comparison& c : all.comparisons) {
+    if (!c.ok()) all.warnings.push_back(all.specification.data[c.data_set].name + ": no prediction: " + c.failure);
+  }
+}
+
+}  // namespace
+
+FitProblem make_problem(const Specification& spec) {
+  FitProblem problem;
+  const std::vector<int> fitted = fitted_parameters(spec);
+  for (const int k : fitted) problem.parameters.push_back(make_parameter(spec, k));
+  for (const DataSet& set : spec.data) {
+    if (set.role != Role::fit) continue;
+    Unknowns which;
+    which.material = fitted;
+    which.first_nuisance = static_cast<Eigen::Index>(problem.parameters.size());
+    which.nuisances = static_cast<Eigen::Index>(set.nuisances.size());
+    problem.parameters.insert(problem.parameters.end(), set.nuisances.begin(), set.nuisances.end());
+    Observations o;
+    o.name = set.name;
+    o.measured = set.measured;
+    o.deviation = set.deviation;
+    o.deviation_known = set.deviation_known;
+    o.weight = set.weight;
+    o.loss = set.loss;
+    o.forward = make_forward(spec.start(), set.model, which);
+    problem.data.push_back(std::move(o));
+  }
+  return problem;
+}
+
+FitOptions fit_options(const Specification& spec) {
+  FitOptions options = spec.options;
+  const FitProblem problem = make_problem(spec);
+  for (const std::string& name : spec.profiles) {
+    for (std::size_t k = 0; k < problem.parameters.size(); ++k) {
+      if (problem.parameters[k].name == name) options.profiles.push_back(static_cast<int>(k));
+    }
+  }
+  return options;
+}
+
+Parameters parameters_at(const Specification& spec, const Eigen::VectorXd& unknowns) {
+  return with_values(spec.start(), fitted_parameters(spec), unknowns);
+}
+
+Calibration calibrate(const Specification& spec, const std::function<void(const FitProgress&)>& progress) {
+  Calibration all;
+  all.specification = spec;
+  all.problem = make_problem(spec);
+  FitOptions options = fit_options(spec);
+  options.progress = progress;
+  all.result = fit(all.problem, options);
+  const bool any = all.result.values.size() == static_cast<Eigen::Index>(all.problem.parameters.size());
+  all.parameters = any ? parameters_at(spec, all.result.values) : spec.start();
+  const std::vector<int> fitted = fitted_parameters(spec);
+  all.comparisons = compare_all(all, fitted);
+  all.derived = derive(all, fitted);
+  for (const ReferenceValue& r : spec.references) {
+    for (const ParameterInfo& p : parameter_info) {
+      if (p.name != r.parameter) continue;
+      const double value = all.parameters.*p.member;
+      all.references.push_back({r, value, value / r.value - 1.0});
+    }
+  }
+  all.energies = confront_energies(all);
+  add_warnings(all);
+  return all;
+}
+
+}  // namespace fpz::calibration

@@ -1,0 +1,278 @@
+#include "fpz/calibration/notched_specimen.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+#include "admissible.hpp"
+#include "fpz/calibration/mid_line.hpp"
+
+namespace fpz::calibration {
+namespace {
+
+class Checker {
+ public:
+  bool require(bool holds, const char* field, double value, const std::string& constraint) {
+    if (!holds) result.errors.push_back({field, value, constraint});
+    return holds;
+  }
+
+  bool positive(const char* field, double value) {
+    return require(std::isfinite(value) && value > 0.0, field, value, "must be finite and > 0");
+  }
+
+  bool between(const char* field, double value, double least, double most) {
+    return require(value >= least && value <= most, field, value,
+                   "must be >= " + text(least) + " and <= " + text(most));
+  }
+
+  static std::string text(double value) {
+    std::ostringstream out;
+    out << value;
+    return out.str();
+  }
+
+  Validation result;
+};
+
+void check_mesh(const MeshDensity& mesh, Checker& check) {
+  check.between("mesh.ligament_fraction", mesh.ligament_fraction, 0.0025, 0.25);
+  check.between("mesh.tip_fraction", mesh.tip_fraction, 0.001, 1.0);
+  check.between("mesh.support_fraction", mesh.support_fraction, 0.0025, 0.25);
+  check.between("mesh.growth", mesh.growth, 0.05, 1.0);
+}
+
+Control control_of(Gauge gauge, const Eigen::VectorXd& nuisance) {
+  if (gauge == Gauge::cmod) return {gauge, nuisance[0], 0.0};
+  return {gauge, nuisance[1], nuisance[0]};
+}
+
+/// Derivatives of a path in the columns of a prediction.
+void write_row(Gauge gauge, const Eigen::VectorXd& path, Eigen::MatrixXd::RowXpr row) {
+  const auto put = [&](int column, PathInput input) { row[column] = path[static_cast<int>(input)]; };
+  put(static_cast<int>(Parameter::young_modulus), PathInput::young_modulus);
+  put(static_cast<int>(Parameter::poisson_ratio), PathInput::poisson_ratio);
+  put(static_cast<int>(Parameter::tensile_strength), PathInput::tensile_strength);
+  put(static_cast<int>(Parameter::delta0), PathInput::delta0);
+  put(static_cast<int>(Parameter::normal_stiffness), PathInput::normal_stiffness);
+  if (gauge == Gauge::cmod) {
+    put(parameter_count, PathInput::gauge_offset);
+  } else {
+    put(parameter_count, PathInput::machine_compliance);
+    put(parameter_count + 1, PathInput::gauge_offset);
+  }
+}
+
+std::string why_unusable(const NotchedSpecimenTest& test, const Parameters& parameters,
+                         const Eigen::VectorXd& nuisance) {
+  const Validation valid = validate(test);
+  if (!valid.ok()) return valid.report();
+  const std::string inadmissible = why_inadmissible(parameters, test.specimen.setting);
+  if (!inadmissible.empty()) return inadmissible;
+  const auto info = nuisances(test.gauge);
+  if (nuisance.size() != static_cast<Eigen::Index>(info.size())) {
+    return "expected " + std::to_string(info.size()) + " nuisance parameters, got " + std::to_string(nuisance.size());
+  }
+  for (std::size_t k = 0; k < info.size(); ++k) {
+    const double value = nuisance[static_cast<Eigen::Index>(k)];
+    const bool compliance = info[k].name == "machine_compliance";
+    if (!std::isfinite(value) || (compliance && value < 0.0)) {
+      return std::string(info[k].name) + " = " + Checker::text(value) + ": must be finite" +
+             (compliance ? " and >= 0" : "");
+    }
+  }
+  return {};
+}
+
+void require_valid(const NotchedSpecimen& specimen, double poisson_ratio) {
+  Checker check;
+  check.result = validate(specimen);
+  check.require(poisson_ratio > -1.0 && poisson_ratio < 0.5, "poisson_ratio", poisson_ratio, "must be > -1 and < 0.5");
+  if (!check.result.ok()) throw std::invalid_argument(check.result.report());
+}
+
+}  // namespace
+
+Validation validate(const NotchedSpecimen& s) {
+  Checker check;
+  const bool beam = s.shape == SpecimenShape::beam;
+  const bool height_ok = beam ? check.positive("depth", s.depth) : check.positive("radius", s.radius);
+  const bool length_ok = beam ? check.positive("length", s.length) : height_ok;
+  check.positive("thickness", s.thickness);
+  const bool span_ok = check.positive("span", s.span);
+  const bool roller_ok = check.require(std::isfinite(s.roller_width) && s.roller_width >= 0.0, "roller_width",
+                                       s.roller_width, "must be finite and >= 0");
+  if (length_ok && span_ok && roller_ok) {
+    const double face = beam ? s.length : 2.0 * s.radius;
+    const char* name = beam ? "length" : "2 radius";
+    check.require(s.span + s.roller_width < face, "span", s.span,
+                  "span + roller_width must be < " + std::string(name) + " = " + Checker::text(face));
+    check.require(s.roller_width < 0.25 * s.span, "roller_width", s.roller_width,
+                  "must be < span / 4 = " + Checker::text(0.25 * s.span));
+  }
+  if (height_ok && check.positive("notch", s.notch)) {
+    const double height = s.height();
+    check.require(s.notch >= 0.005 * height && s.notch <= 0.95 * height, "notch", s.notch,
+                  "must be >= 0.005 and <= 0.95 times the " + std::string(beam ? "depth" : "radius") + " = " +
+                      Checker::text(height));
+  }
+  check.require(std::isfinite(s.clip_gauge_distance) && s.clip_gauge_distance >= 0.0, "clip_gauge_distance",
+                s.clip_gauge_distance, "must be finite and >= 0");
+  check.require(s.setting != Setting::three_d, "setting", static_cast<double>(s.setting),
+                "must be plane_strain or plane_stress");
+  check_mesh(s.mesh, check);
+  return std::move(check.result);
+}
+
+Validation validate(const NotchedSpecimenTest& test) {
+  Checker check;
+  check.result = validate(test.specimen);
+  check.require(test.readings.size() > 0, "readings", 0.0, "must not be empty");
+  for (Eigen::Index k = 0; k < test.readings.size(); ++k) {
+    if (!std::isfinite(test.readings[k])) {
+      check.require(false, "readings", test.readings[k], "must be finite (point " + std::to_string(k + 1) + ")");
+      break;
+    }
+  }
+  check.require(test.gauge != Gauge::deflection_load_point || test.specimen.roller_width > 0.0, "roller_width",
+                test.specimen.roller_width,
+                "must be > 0 for the deflection of the load point: under a point load it has no finite value");
+  check.require(test.cache != nullptr, "cache", 0.0, "must not be empty");
+  return std::move(check.result);
+}
+
+Condensation condense(const NotchedSpecimen& specimen, double poisson_ratio, bool nu_derivative) {
+  require_valid(specimen, poisson_ratio);
+  return condense(make_mesh(specimen), specimen.setting, poisson_ratio, specimen.clip_gauge_distance, nu_derivative);
+}
+
+std::shared_ptr<const Condensation> CondensationCache::get(const NotchedSpecimen& specimen, double poisson_ratio,
+                                                           bool nu_derivative) {
+  constexpr std::size_t most_entries = 6;
+  const std::lock_guard lock(mutex_);
+  const auto found = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& e) {
+    return e.poisson_ratio == poisson_ratio && e.specimen == specimen;
+  });
+  if (found != entries_.end() && (!nu_derivative || found->condensation->d_nu)) {
+    entries_.splice(entries_.begin(), entries_, found);
+    return entries_.front().condensation;
+  }
+  if (found != entries_.end()) entries_.erase(found);
+  auto made = std::make_shared<const Condensation>(condense(specimen, poisson_ratio, nu_derivative));
+  entries_.push_front({specimen, poisson_ratio, std::move(made)});
+  if (entries_.size() > most_entries) entries_.pop_back();
+  return entries_.front().condensation;
+}
+
+std::span<const NuisanceInfo> nuisances(Gauge gauge) {
+  static constexpr std::array<NuisanceInfo, 1> cmod = {{{"cmod_offset", "CMOD_0", "m"}}};
+  static constexpr std::array<NuisanceInfo, 2> deflection = {
+      {{"machine_compliance", "C_m", "m/N"}, {"deflection_offset", "d_0", "m"}}};
+  if (gauge == Gauge::cmod) return cmod;
+  return deflection;
+}
+
+Prediction predict(const NotchedSpecimenTest& test, const Parameters& parameters, const Eigen::VectorXd& nuisance,
+                   bool derivatives) {
+  if (std::string why = why_unusable(test, parameters, nuisance); !why.empty()) return failed(std::move(why));
+  const auto body = test.cache->get(test.specimen, parameters.poisson_ratio, derivatives);
+  MidLine path(*body, parameters, control_of(test.gauge, nuisance), derivatives);
+  Prediction out;
+  out.values.resize(test.readings.size());
+  if (derivatives) out.jacobian = Eigen::MatrixXd::Zero(test.readings.size(), parameter_count + nuisance.size());
+  for (Eigen::Index k = 0; k < test.readings.size(); ++k) {
+    if (std::string why = path.advance(test.readings[k]); !why.empty()) return failed(std::move(why));
+    out.values[k] = path.load();
+    if (derivatives) write_row(test.gauge, path.load_derivatives(), out.jacobian.row(k));
+  }
+  return out;
+}
+
+FractureCurve fracture_curve(const NotchedSpecimen& specimen, const Parameters& parameters, double end_load,
+                             double step) {
+  constexpr std::size_t most_points = 5000;
+  FractureCurve curve;
+  curve.failure = why_inadmissible(parameters, specimen.setting);
+  if (!curve.failure.empty()) return curve;
+  const Condensation body = condense(specimen, parameters.poisson_ratio);
+  MidLine path(body, parameters, {}, false);
+  double peak = 0.0;
+  double next = 0.0;
+  while (curve.load.size() < most_points) {
+    curve.failure = path.advance(next);
+    if (!curve.failure.empty()) return curve;
+    curve.load.push_back(path.load());
+    curve.cmod.push_back(path.gauge(Gauge::cmod));
+    curve.deflection_mid_depth.push_back(path.gauge(Gauge::deflection_mid_depth));
+    curve.deflection_load_point.push_back(path.gauge(Gauge::deflection_load_point));
+    curve.crack_length.push_back(path.crack_length());
+    curve.fracture_work.push_back(path.fracture_work());
+    curve.elastic_energy.push_back(path.elastic_energy());
+    peak = std::max(peak, path.load());
+    if (peak > 0.0 && path.load() <= end_load * peak) return curve;
+    // The first step goes to the first crack; then the tip opens by a set fraction, the gauge by a tenth at most.
+    const double opening = step * (parameters.delta0 + path.jump()[0]);
+    const double rate = path.jump_rate()[0];
+    const double increment = rate * next > 10.0 * opening ? opening / rate : 0.1 * next;
+    next = next == 0.0 ? path.elastic_limit() : next + increment;
+  }
+  curve.failure = "the load had not fallen to the wanted value after " + std::to_string(most_points) + " steps";
+  return curve;
+}
+
+double initial_stiffness(const NotchedSpecimen& specimen, double poisson_ratio, Gauge gauge) {
+  return 1.0 / condense(specimen, poisson_ratio).body.gauge_load[static_cast<int>(gauge)];
+}
+
+InitialModulus initial_modulus(const NotchedSpecimen& specimen, double poisson_ratio, const Eigen::VectorXd& readings,
+                               const Eigen::VectorXd& loads, double from, double to, Gauge gauge) {
+  if (readings.size() != loads.size() || loads.size() == 0)
+    throw std::invalid_argument("initial modulus: readings and loads must be as many, and at least one");
+  if (!(from >= 0.0 && from < to && to <= 1.0))
+    throw std::invalid_argument("initial modulus: 0 <= from < to <= 1 is required");
+  Eigen::Index top = 0;
+  const double peak = loads.maxCoeff(&top);
+  std::vector<Eigen::Index> used;
+  for (Eigen::Index k = 0; k <= top; ++k) {
+    if (loads[k] >= from * peak && loads[k] <= to * peak) used.push_back(k);
+  }
+  if (used.size() < 3)
+    throw std::invalid_argument("initial modulus: only " + std::to_string(used.size()) +
+                                " points between the given fractions of the peak; three are needed");
+  const Eigen::ArrayXd x = readings(used);
+  const Eigen::ArrayXd y = loads(used);
+  const Eigen::ArrayXd dx = x - x.mean();
+  const double square = dx.square().sum();
+  if (!(square > 0.0)) throw std::invalid_argument("initial modulus: all readings are the same");
+  const double slope = (dx * (y - y.mean())).sum() / square;
+  const Eigen::ArrayXd residual = y - y.mean() - slope * dx;
+  const double per_stiffness = 1.0 / initial_stiffness(specimen, poisson_ratio, gauge);
+  InitialModulus out;
+  out.points = static_cast<int>(used.size());
+  out.value = slope * per_stiffness;
+  out.standard_error = per_stiffness * std::sqrt(residual.square().sum() / (out.points - 2.0) / square);
+  out.offset = x.mean() - y.mean() / slope;
+  return out;
+}
+
+std::string mesh_warning(const NotchedSpecimen& s, const Parameters& p) {
+  const bool strain = s.setting == Setting::plane_strain;
+  const double modulus = strain ? p.young_modulus / (1.0 - p.poisson_ratio * p.poisson_ratio) : p.young_modulus;
+  const double allowed = 0.1 * modulus * p.delta0 / p.tensile_strength;
+  const double element = s.mesh.ligament_fraction * s.ligament();
+  if (element <= allowed * (1.0 + 1e-9)) return {};
+  return "mesh.ligament_fraction = " + Checker::text(s.mesh.ligament_fraction) + " gives elements of " +
+         Checker::text(element) + " m, longer than a tenth of E' delta0/sigma_t0 = " + Checker::text(10.0 * allowed) +
+         " m: use " + Checker::text(allowed / s.ligament());
+}
+
+std::string mode_one_warning(const Parameters& p) {
+  const double strength = uniaxial_tensile_strength(p);
+  if (strength >= p.tensile_strength) return {};
+  return "with cohesion = " + Checker::text(p.cohesion) + " Pa, tension cracks on an inclined plane at " +
+         Checker::text(strength) + " Pa, below tensile_strength = " + Checker::text(p.tensile_strength) +
+         " Pa; the straight mode I crack of this prediction needs a higher cohesion";
+}
+
+}  // namespace fpz::calibration

@@ -1,0 +1,101 @@
+#include "data_set_reader.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace fpz::calibration::detail {
+namespace {
+
+using Kind = JsonValue::Kind;
+constexpr std::size_t longest_name = 100;
+constexpr std::size_t longest_text = 4000;
+
+constexpr std::array<std::string_view, 2> roles = {"fit", "predict"};
+constexpr std::array<std::string_view, 5> losses = {"none", "huber", "soft_l1", "cauchy", "tukey"};
+constexpr std::array<std::string_view, 2> loss_keys = {"kind", "scale"};
+
+constexpr std::array<std::string_view, 6> kind_names = {"fracture_energy", "strength",     "traction_separation",
+                                                        "stress_strain",   "notched_beam", "semicircular_bend"};
+constexpr std::array<KindReader, kind_names.size()> kind_readers = {read_fracture_energy,     read_strength,
+                                                                    read_traction_separation, read_stress_strain,
+                                                                    read_notched_beam,        read_semicircular_bend};
+
+void read_loss(const Context& c, const Place& at, DataSet& out) {
+  if (!c.reader.object(at, "\"kind\" and \"scale\"")) return;
+  c.reader.known_keys(at, loss_keys);
+  if (const JsonValue* kind = c.reader.required(at, "kind")) {
+    if (const auto k = read_choice(c, Place(at, *kind), "loss", losses)) out.loss.kind = static_cast<LossKind>(*k);
+  }
+  if (const JsonValue* scale = at.value().find("scale")) {
+    out.loss.scale = c.reader.positive(Place(at, *scale)).value_or(1.0);
+  }
+}
+
+void read_weight(const Context& c, const Place& at, DataSet& out) {
+  const auto x = c.reader.number(at);
+  if (!x) return;
+  if (*x > 0.0) {
+    out.weight = *x;
+  } else {
+    c.problem(at, io::exact(*x) + ": must be > 0; to leave a data set out of the fit use \"role\": \"predict\"");
+  }
+}
+
+}  // namespace
+
+void take_curve(const Curve& curve, std::size_t abscissa, std::size_t measured, DataSet& out) {
+  out.file = curve.file;
+  out.abscissa = curve.columns[abscissa](curve.used);
+  out.measured = curve.columns[measured](curve.used);
+  out.deviation = curve.deviation(curve.used);
+  out.deviation_known = curve.deviation_known;
+  out.deviation_words = curve.deviation_words;
+}
+
+Axis readable_axis(const std::string& what, Quantity quantity, double largest) {
+  const auto in = [&](std::string_view unit) {
+    return Axis{what, std::string(unit), unit_factor(quantity, unit).value_or(1.0)};
+  };
+  switch (quantity) {
+    case Quantity::length:
+      return in(largest < 1e-3 ? "um" : "mm");
+    case Quantity::force:
+      return in(largest < 1e4 ? "N" : "kN");
+    case Quantity::stress:
+      return in(largest < 1e9 ? "MPa" : "GPa");
+    case Quantity::energy_per_area:
+      return in("N/m");
+    case Quantity::toughness:
+      return in("MPa.sqrt(m)");
+    default:
+      return in(si_unit(quantity));
+  }
+}
+
+std::optional<DataSet> read_data_set(const SetContext& s, const Place& set) {
+  const Context& c = s.c;
+  if (!c.reader.object(set, "the keys of a data set")) return std::nullopt;
+  const std::size_t before = c.reader.problems().size();
+  DataSet out;
+  if (const JsonValue* name = c.reader.required(set, "name")) {
+    out.name = c.reader.text(Place(set, *name), longest_name).value_or("");
+  }
+  if (const JsonValue* source = set.value().find("source")) {
+    out.source = c.reader.text(Place(set, *source), longest_text).value_or("");
+  }
+  if (const JsonValue* role = set.value().find("role")) {
+    if (const auto k = read_choice(c, Place(set, *role), "role", roles)) out.role = static_cast<Role>(*k);
+  }
+  if (const JsonValue* weight = set.value().find("weight")) read_weight(c, Place(set, *weight), out);
+  if (const JsonValue* loss = set.value().find("loss")) read_loss(c, Place(set, *loss), out);
+  if (const JsonValue* kind = c.reader.required(set, "kind")) {
+    if (const auto k = read_choice(c, Place(set, *kind), "kind", kind_names)) {
+      out.kind = kind_names[*k];
+      kind_readers[*k](s, set, out);
+    }
+  }
+  if (c.reader.problems().size() != before) return std::nullopt;
+  return out;
+}
+
+}  // namespace fpz::calibration::detail
