@@ -61,9 +61,8 @@ Estimate estimate(const SceneFile& scene, const Specimen& specimen, int threads)
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   e.memory = 1024.0 * static_cast<double>(usage.ru_maxrss);
-  const double per_particle = 24.0 + 24.0 + 4.0 * 16.0 + 17.0;  // points, displacement, other fields, cells
-  e.disk = per_particle * static_cast<double>(run.particles().count) * (scene.output.frames + 6.0) +
-           static_cast<double>(run.snapshot().size());
+  e.disk =
+      frame_bytes(run.particles().count) * (scene.output.frames + 6.0) + static_cast<double>(run.snapshot().size());
   return e;
 }
 

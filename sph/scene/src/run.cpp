@@ -59,6 +59,7 @@ class Runner {
       clean();
       begin_history();
     }
+    require_space();
     io::make_writable_folder(files_.frames);
     remove_leftovers();
     io::write_text(files_.scene, scene_.text, true);
@@ -66,7 +67,6 @@ class Runner {
       add_row();
       add_frame();
     }
-    require_space();
     save();  // before the work: a folder that cannot hold a checkpoint is found now
     last_save_ = Clock::now();
   }
@@ -123,12 +123,11 @@ class Runner {
 
   void require_space() const {
     std::error_code error;
-    const auto frame = record_.frames.empty() ? 0 : fs::file_size(request_.folder / record_.frames.front().file, error);
     const double frames = scene_.output.frames + static_cast<double>(record_.levels_done.size()) + 2.0;
     const double history =
         20.0 * static_cast<double>(record_.history.columns.size()) * (scene_.output.history_rows + 2.0);
-    const double needed =
-        static_cast<double>(frame) * frames + 3.0 * history + 2.0 * static_cast<double>(run_.snapshot().size()) + 2e7;
+    const double needed = frame_bytes(run_.particles().count) * frames + 3.0 * history +
+                          2.0 * static_cast<double>(run_.snapshot().size()) + 2e7;
     const auto space = fs::space(request_.folder, error);
     if (!error && static_cast<double>(space.available) < needed) {
       throw io::OutputError(request_.folder.string() + ": the disk has " + std::to_string(space.available >> 20U) +

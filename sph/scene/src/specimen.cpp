@@ -288,4 +288,9 @@ PointCloud frame_of(const Simulation<2>& run, const Specimen& specimen) {
   return cloud;
 }
 
+double frame_bytes(std::size_t particles) {
+  constexpr double wide = 6.0 * 8.0, single = 17.0 * 4.0, cell = 17.0;  // bytes per particle
+  return (wide + single + cell) * static_cast<double>(particles) + 3000.0;
+}
+
 }  // namespace fpz::sph

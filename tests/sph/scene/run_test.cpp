@@ -74,6 +74,8 @@ TEST(Run, CoarseBeamCracksAndBalances) {
   ASSERT_GE(frames.size(), 5u);
   const PointCloud last = read_vtk(folder / frames.back().file);
   EXPECT_EQ(last.time, t.at("time").back());
+  EXPECT_NEAR(static_cast<double>(fs::file_size(folder / frames.back().file)), frame_bytes(last.size()),
+              0.05 * frame_bytes(last.size()));
   for (const char* name :
        {"damage", "crack_normal", "jump", "stress_xx", "velocity", "elastic_energy", "dissipated_energy"}) {
     EXPECT_NE(last.find(name), nullptr) << name;

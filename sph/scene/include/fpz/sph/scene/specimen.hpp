@@ -50,4 +50,7 @@ struct Specimen {
 /// stress (xx, yy, xy), velocity, displacement, elastic_energy (J/m^3), dissipated_energy (per crack area, J/m^2).
 [[nodiscard]] PointCloud frame_of(const Simulation<2>& run, const Specimen& specimen);
 
+/// Size of the file of such a frame, about.
+[[nodiscard]] double frame_bytes(std::size_t particles);
+
 }  // namespace fpz::sph
