@@ -1,0 +1,97 @@
+// A run of the particle method: construct, step, look. Sections 2 and 5 of the paper.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "fpz/sph/arrangement.hpp"
+#include "fpz/sph/energy.hpp"
+#include "fpz/sph/group.hpp"
+#include "fpz/sph/options.hpp"
+#include "fpz/sph/outcome.hpp"
+#include "fpz/sph/particles.hpp"
+
+namespace fpz::sph {
+
+namespace detail {
+template <int Dim>
+struct Engine;
+}
+
+/// Everything that defines a run.
+template <int Dim>
+struct Scene {
+  Arrangement<Dim> arrangement;
+  std::vector<Group<Dim>> groups;
+  Parameters parameters;  ///< rve_length is ignored: options.rve_length decides
+  Setting setting = Setting::plane_strain;
+  Options<Dim> options;
+  std::vector<Vec<double, Dim>> velocity;  ///< at the start, per particle, m/s; empty: at rest
+};
+
+/// What is wrong with a scene, one message per problem with the field's name; empty when it can run.
+template <int Dim>
+[[nodiscard]] std::vector<std::string> problems(const Scene<Dim>& scene);
+
+/// The time step of eq 32, s: courant * h/sqrt(E/rho), times sqrt(mass_scale).
+template <int Dim>
+[[nodiscard]] double courant_step(const Scene<Dim>& scene);
+
+/// The longest stable time step of the elastic body of this arrangement, s: 2/omega with the largest frequency omega
+/// found by power iteration (some hundred times the work of a step). Viscosity and local damping shorten it further.
+template <int Dim>
+[[nodiscard]] double stability_limit(const Scene<Dim>& scene);
+
+/// Part of the measured limit that a run uses at most.
+inline constexpr double stability_margin = 0.9;
+
+/// The time step of a run, s: eq 32, or stability_margin * stability_limit() where that is shorter.
+template <int Dim>
+[[nodiscard]] double time_step(const Scene<Dim>& scene);
+
+/// One run. Particles interact with all others of the arrangement, boundary groups included. The result does not depend
+/// on the number of threads or on the instruction set.
+template <int Dim>
+class Simulation {
+ public:
+  /// Throws std::invalid_argument with all problems().
+  explicit Simulation(const Scene<Dim>& scene);
+  ~Simulation();
+  Simulation(Simulation&&) noexcept;
+  Simulation& operator=(Simulation&&) noexcept;
+
+  /// Advances by one time step. After a failure the state is the broken one, for inspection.
+  [[nodiscard]] Outcome step();
+
+  [[nodiscard]] double time() const;       ///< s
+  [[nodiscard]] double time_step() const;  ///< s
+  [[nodiscard]] long long steps() const;
+  [[nodiscard]] const Particles<Dim>& particles() const;
+  /// Slot of a particle of the arrangement in the arrays of particles().
+  [[nodiscard]] std::size_t slot(std::size_t id) const;
+  /// Force that keeps a group on its motion, N (per metre of thickness in 2-D), from the momentum balance of its
+  /// particles at the last full step; zero in free components.
+  [[nodiscard]] Vec<double, Dim> reaction(std::size_t group) const;
+  /// Sums over all particles, in a fixed order.
+  [[nodiscard]] Energies energies() const;
+  [[nodiscard]] std::size_t cracked() const;
+  [[nodiscard]] long long released_bonds() const;
+  [[nodiscard]] long long neighbour_builds() const;
+  /// Real neighbours per particle, on average.
+  [[nodiscard]] double mean_neighbours() const;
+
+  /// The complete state as bytes; restore() continues bit for bit. Throws std::runtime_error when the bytes are damaged
+  /// or belong to another scene.
+  [[nodiscard]] std::vector<unsigned char> snapshot() const;
+  void restore(std::span<const unsigned char> bytes);
+
+ private:
+  std::unique_ptr<detail::Engine<Dim>> engine_;
+};
+
+extern template class Simulation<2>;
+
+}  // namespace fpz::sph

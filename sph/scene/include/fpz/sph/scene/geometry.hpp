@@ -1,0 +1,74 @@
+// The body of a specimen: a shape minus holes and notches, in the plane.
+#pragma once
+
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "fpz/types.hpp"
+
+namespace fpz::sph {
+
+using Point = Vec<double, 2>;
+
+struct Rectangle {
+  Point low = Point::Zero(), high = Point::Zero();
+};
+struct Disc {
+  Point centre = Point::Zero();
+  double radius = 0.0;
+};
+/// The half above its centre: the flat side is y = centre.y.
+struct HalfDisc {
+  Point centre = Point::Zero();
+  double radius = 0.0;
+};
+struct Ring {
+  Point centre = Point::Zero();
+  double inner = 0.0, outer = 0.0;
+};
+/// Simple (not self-crossing), in either sense of rotation.
+struct Polygon {
+  std::vector<Point> corners;
+};
+using Shape = std::variant<Rectangle, Disc, HalfDisc, Ring, Polygon>;
+
+/// A straight slot from its mouth on the surface to its tip, square at the tip. Width 0 is a cut: no material is
+/// missing. The slot reaches backwards beyond its mouth by its width, so that an inclined one opens the surface fully.
+struct Notch {
+  Point mouth = Point::Zero(), tip = Point::Zero();
+  double width = 0.0;
+};
+
+struct Body {
+  Shape shape;
+  std::vector<Shape> holes;
+  std::vector<Notch> notches;
+};
+
+[[nodiscard]] bool contains(const Shape& shape, const Point& x);
+/// In the shape, and in no hole and no slot.
+[[nodiscard]] bool contains(const Body& body, const Point& x);
+
+/// Lowest and highest coordinates.
+[[nodiscard]] std::pair<Point, Point> extent(const Shape& shape);
+
+/// Exact, m^2.
+[[nodiscard]] double area(const Shape& shape);
+/// Area of what contains() holds for, m^2; relative error below 1e-7 (sum over horizontal lines, exact on each).
+[[nodiscard]] double area(const Body& body);
+
+/// The corners of a slot; four, or none for width 0.
+[[nodiscard]] std::vector<Point> corners(const Notch& notch);
+
+/// Unit vector along the notch, from mouth to tip, and the one to its left.
+[[nodiscard]] Point along(const Notch& notch);
+[[nodiscard]] Point across(const Notch& notch);
+
+/// True when the straight line from p to q crosses the centre line of the notch; touching its tip does not count.
+[[nodiscard]] bool crosses(const Notch& notch, const Point& p, const Point& q);
+
+/// Closed lines for drawing: outer boundary first, then holes and slots.
+[[nodiscard]] std::vector<std::vector<Point>> outlines(const Body& body);
+
+}  // namespace fpz::sph

@@ -1,0 +1,183 @@
+// fpz-sph: fracture tests of specimens from the command line. Exit status: 0 success; 1 the run failed; 2 bad usage,
+// bad input, or a file that cannot be written; 3 interrupted, with a checkpoint.
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <iostream>
+
+#include "fpz/io/input_error.hpp"
+#include "fpz/io/output.hpp"
+#include "fpz/sph/scene/estimate.hpp"
+#include "fpz/sph/scene/pictures.hpp"
+#include "fpz/sph/scene/run.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace fpz::sph;
+
+volatile std::sig_atomic_t interrupted = 0;
+extern "C" void on_signal(int) { interrupted = 1; }
+
+std::string clock_text(double seconds) {
+  const auto s = static_cast<long long>(seconds + 0.5);
+  char text[40];
+  if (s >= 3600) {
+    std::snprintf(text, sizeof text, "%lld:%02lld:%02lld", s / 3600, s / 60 % 60, s % 60);
+  } else {
+    std::snprintf(text, sizeof text, "%lld:%02lld", s / 60, s % 60);
+  }
+  return text;
+}
+
+/// One line on the terminal that is written over again and again; nothing when stderr is no terminal.
+class ProgressLine {
+ public:
+  ProgressLine() : active_(::isatty(STDERR_FILENO) == 1) {}
+  ~ProgressLine() {
+    if (shown_) std::fputs("\r\033[K", stderr);
+  }
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+
+  void show(const Progress& p) {
+    const auto now = std::chrono::steady_clock::now();
+    if (!active_ || now - last_ < std::chrono::milliseconds(250)) return;
+    if (!shown_) first_fraction_ = p.fraction, first_seconds_ = p.seconds;
+    last_ = now;
+    shown_ = true;
+    const double done = p.fraction - first_fraction_;
+    const double left = done > 0.0 ? (p.seconds - first_seconds_) * (1.0 - p.fraction) / done : 0.0;
+    std::fprintf(stderr, "\r\033[K%5.1f %%  load %.4g N, %zu damaged, %.0f steps/s, %s elapsed, at most %s remaining",
+                 100.0 * p.fraction, p.load, p.damaged, p.steps_per_second, clock_text(p.seconds).c_str(),
+                 clock_text(left).c_str());
+  }
+
+ private:
+  bool active_;
+  bool shown_ = false;
+  double first_fraction_ = 0.0, first_seconds_ = 0.0;
+  std::chrono::steady_clock::time_point last_{};
+};
+
+struct Arguments {
+  std::string scene, out;
+  Overrides set;
+  bool force = false, resume = false, pictures = true;
+  int threads = 0;
+  long long steps = 0;
+};
+
+void warn(const std::vector<std::string>& warnings) {
+  for (const std::string& w : warnings) std::cerr << "warning: " << w << "\n";
+}
+
+void report_pictures(const PictureOutcome& pictures, const fs::path& folder) {
+  warn(pictures.warnings);
+  if (!pictures.files.empty()) std::cout << "  " << pictures.files.size() << " pictures in " << folder.string() << "\n";
+}
+
+int run(const Arguments& a) {
+  const SceneFile scene = read_scene(a.scene, a.set);
+  warn(scene.warnings);
+  RunRequest request;
+  request.folder = a.out;
+  request.force = a.force;
+  request.resume = a.resume;
+  request.threads = a.threads;
+  request.most_steps = a.steps;
+  request.interrupt = &interrupted;
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
+  RunResult result;
+  {
+    ProgressLine line;
+    request.progress = [&](const Progress& p) { line.show(p); };
+    result = run_scene(scene, request);
+  }
+  const History& h = result.record.history;
+  if (result.ending == Ending::interrupted) {
+    std::cout << scene.name << ": " << result.reason << "\n  " << RunFiles(a.out).checkpoint.string() << "\n";
+    return 3;
+  }
+  warn(result.warnings);
+  std::cout << scene.name << ": " << (result.ending == Ending::failed ? "FAILED: " : "") << result.reason << "\n"
+            << result.report << "  " << RunFiles(a.out).history.string() << " (" << h.rows() << " rows), "
+            << result.record.frames.size() << " frames in " << (fs::path(a.out) / "frames.pvd").string() << "\n";
+  if (a.pictures && scene.output.pictures) report_pictures(draw_run(a.out, true), a.out);
+  return result.ending == Ending::failed ? 1 : 0;
+}
+
+int check(const Arguments& a) {
+  const SceneFile scene = read_scene(a.scene, a.set);
+  warn(scene.warnings);
+  const Specimen specimen = make_specimen(scene);
+  warn(doubts(scene, specimen));
+  std::cout << scene.name << ": the scene is valid\n"
+            << estimate_text(scene, specimen, estimate(scene, specimen, a.threads));
+  if (!a.pictures) return 0;
+  const fs::path folder = a.out.empty() ? fs::path("fpz-check-" + scene.name) : fs::path(a.out);
+  fpz::io::make_writable_folder(folder);
+  report_pictures(draw_scene(scene, specimen, folder, true), folder);
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+  CLI::App app{"Fracture tests of rock specimens by the particle method."};
+  app.set_version_flag("--version", FPZ_VERSION);
+  app.footer(
+      "Examples:\n"
+      "  fpz-sph data/scenes/beam_3pb.json -o out/beam\n"
+      "  fpz-sph data/scenes/beam_3pb.json -o out/fine --set spacing=0.002 --set material=../materials/bellego.json\n"
+      "  fpz-sph data/scenes/scb.json -o out/scb30 --set notches[0].angle_deg=30\n"
+      "  fpz-sph data/scenes/beam_3pb.json -o out/beam --resume       after Ctrl-C or a crash\n"
+      "  fpz-sph check data/scenes/ring.json --set shape.diameter_ratio=0.5\n"
+      "  fpz-sph plot out/beam\n"
+      "Scenes are described in docs/scenes.md.\n"
+      "Exit status: 0 success; 1 the run failed; 2 bad usage or input, or unwritable files; 3 interrupted, resumable.");
+  Arguments a;
+  const auto common = [&](CLI::App& c) {
+    c.add_option("SCENE.json", a.scene, "scene file");
+    c.add_option("-o,--out", a.out, "output folder");
+    c.add_option("--set", a.set, "path=value: override an entry of the scene (may be repeated)")->take_all();
+    c.add_option("--threads", a.threads, "number of threads; results do not depend on it")->check(CLI::PositiveNumber);
+    c.add_flag("!--no-pictures", a.pictures, "draw nothing");
+  };
+  common(app);
+  app.add_flag("--force", a.force, "replace the files of an earlier run");
+  app.add_flag("--resume", a.resume, "go on from the checkpoint in the output folder");
+  app.add_option("--steps", a.steps, "stop after so many steps with a checkpoint (for time limits)")
+      ->check(CLI::PositiveNumber);
+
+  CLI::App* check_command = app.add_subcommand("check", "Validate a scene, draw it, estimate steps, memory and time");
+  common(*check_command);
+  check_command->footer("Example:\n  fpz-sph check data/scenes/scb.json -o out/check --set notches[0].angle_deg=45");
+
+  std::string folder;
+  CLI::App* plot_command = app.add_subcommand("plot", "Draw the pictures of a run again");
+  plot_command->add_option("OUTDIR", folder, "folder of a run")->required();
+  plot_command->footer("Example:\n  fpz-sph plot out/beam");
+
+  try {
+    app.parse(argc, argv);
+    if (*plot_command) {
+      const PictureOutcome pictures = draw_run(folder, true);
+      report_pictures(pictures, folder);
+      return 0;
+    }
+    if (a.scene.empty()) throw CLI::RequiredError("SCENE.json");
+    if (!*check_command && a.out.empty()) throw CLI::RequiredError("--out");
+    if (a.force && a.resume) throw CLI::ValidationError("--force and --resume exclude each other");
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e) == 0 ? 0 : 2;
+  }
+  return *check_command ? check(a) : run(a);
+} catch (const std::exception& e) {
+  std::cerr << "fpz-sph: " << e.what() << "\n";
+  return 2;
+}

@@ -1,0 +1,47 @@
+// Parts of a scene from JSON. What is wrong becomes a problem at its place; a usable default is returned then.
+#pragma once
+
+#include <algorithm>
+#include <span>
+
+#include "fpz/io/input_reader.hpp"
+#include "fpz/sph/scene/scene_file.hpp"
+
+namespace fpz::sph::detail {
+
+using io::InputReader;
+using io::JsonValue;
+using io::Place;
+
+inline constexpr std::size_t longest_name = 200;
+
+/// Calls f(place) for a member when it is there.
+template <class F>
+void with(const Place& object, std::string_view key, F&& f) {
+  if (const JsonValue* v = object.value().find(key)) f(Place(object, *v));
+}
+
+/// Calls f(place) for a member; its absence is a problem.
+template <class F>
+void with_required(const InputReader& r, const Place& object, std::string_view key, F&& f) {
+  if (const JsonValue* v = r.required(object, key)) f(Place(object, *v));
+}
+
+/// Index of a string among the valid names.
+[[nodiscard]] std::optional<std::size_t> choice(const InputReader& r, const Place& place,
+                                                std::span<const std::string_view> valid);
+[[nodiscard]] std::optional<bool> boolean(const InputReader& r, const Place& place);
+[[nodiscard]] std::optional<Point> point(const InputReader& r, const Place& place);
+/// A point that is not (0, 0), made a unit vector.
+[[nodiscard]] std::optional<Point> direction(const InputReader& r, const Place& place);
+[[nodiscard]] std::optional<double> not_negative(const InputReader& r, const Place& place);
+
+void read_body(const InputReader& r, const Place& root, SceneFile& scene);
+void read_arrangement(const InputReader& r, const Place& root, SceneFile& scene);
+void read_boundaries(const InputReader& r, const Place& place, SceneFile& scene);
+void read_method(const InputReader& r, const Place& place, Options<2>& options);
+void read_gauges(const InputReader& r, const Place& place, SceneFile& scene);
+void read_stop(const InputReader& r, const Place& place, StopRules& stop);
+void read_output(const InputReader& r, const Place& place, OutputRules& output);
+
+}  // namespace fpz::sph::detail

@@ -1,0 +1,12 @@
+// The inner loops for this instruction set (flags: CMakeLists.txt).
+#define FPZ_SPH_ISA avx512
+#include "passes.inl"
+
+namespace fpz::sph::detail {
+
+template <>
+const Passes<2>& avx512_passes<2>(int kernel, int momentum) {
+  return avx512::choose(kernel, momentum);
+}
+
+}  // namespace fpz::sph::detail

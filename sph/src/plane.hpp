@@ -1,0 +1,97 @@
+// Geometry and elasticity of one particle in the plane, for one lane or one number: no branches, no calls.
+#pragma once
+
+#define FPZ_LANE static inline __attribute__((always_inline))
+
+namespace fpz::sph::detail {
+
+struct Symmetric {
+  double xx, yy, xy;
+};
+
+/// Rotation R and stretch U - I of F = R U = I + b, without cancellation for small b (row-major components).
+struct Stretch {
+  double cosine, sine;
+  Symmetric strain;
+};
+
+FPZ_LANE Stretch polar(double bxx, double bxy, double byx, double byy) {
+  const double c = 2.0 + bxx + byy;
+  const double s = byx - bxy;
+  const double r = __builtin_sqrt(c * c + s * s);
+  const double inverse = 1.0 / r;
+  Stretch p;
+  p.cosine = c * inverse;
+  p.sine = s * inverse;
+  const double small = -s * s * inverse / (c > 0.0 ? r + c : 1.0);
+  const double cosine_minus_one = c > 0.0 ? small : p.cosine - 1.0;
+  p.strain.xx = cosine_minus_one + (p.cosine * bxx + p.sine * byx);
+  p.strain.yy = cosine_minus_one + (p.cosine * byy - p.sine * bxy);
+  p.strain.xy = 0.5 * (p.cosine * (bxy + byx) + p.sine * (byy - bxx));
+  return p;
+}
+
+FPZ_LANE Symmetric elastic_stress(double lambda, double mu, const Symmetric& e) {
+  const double pressure = lambda * (e.xx + e.yy);
+  return {pressure + 2.0 * mu * e.xx, pressure + 2.0 * mu * e.yy, 2.0 * mu * e.xy};
+}
+
+/// Certainly inside the onset surface (onset.hpp: surely_intact).
+FPZ_LANE bool intact(double sin_phi, double strength, double apex, const Symmetric& s) {
+  const double p = 0.5 * (s.xx + s.yy);
+  const double d = 0.5 * (s.xx - s.yy);
+  const double room = strength - p * sin_phi;
+  return (room > 0.0) & (d * d + s.xy * s.xy + apex * apex < room * room);
+}
+
+/// Inverse of the symmetric, positive semi-definite moment matrix (eq 18). A direction in which the neighbours hardly
+/// extend (eigenvalue below `floor` of the larger one) gets zero: no gradient is computed along it.
+FPZ_LANE Symmetric correction_of(const Symmetric& a) {
+  constexpr double floor = 0.02;
+  const double mean = 0.5 * (a.xx + a.yy);
+  const double d = 0.5 * (a.xx - a.yy);
+  const double r = __builtin_sqrt(d * d + a.xy * a.xy);
+  const double large = mean + r;
+  const double small = mean - r;
+  const double inverse_large = large > 0.0 ? 1.0 / (large > 0.0 ? large : 1.0) : 0.0;
+  const bool flat = !(small > floor * large);
+  const double inverse_small = flat ? 0.0 : 1.0 / (flat ? 1.0 : small);
+  const double sum = 0.5 * (inverse_large + inverse_small);
+  const double difference = r > 0.0 ? 0.5 * (inverse_large - inverse_small) / (r > 0.0 ? r : 1.0) : 0.0;
+  return {sum + difference * d, sum - difference * d, difference * a.xy};
+}
+
+/// R s R^T.
+FPZ_LANE Symmetric rotated(double c, double s, const Symmetric& a) {
+  const double xx = c * a.xx - s * a.xy;
+  const double xy = c * a.xy - s * a.yy;
+  const double yx = s * a.xx + c * a.xy;
+  const double yy = s * a.xy + c * a.yy;
+  return {xx * c - xy * s, yx * s + yy * c, xx * s + xy * c};
+}
+
+/// R a L, row-major: the flux that the force sums.
+struct Full {
+  double xx, xy, yx, yy;
+};
+FPZ_LANE Full flux_of(double c, double s, const Symmetric& a, const Symmetric& l) {
+  const double xx = c * a.xx - s * a.xy;
+  const double xy = c * a.xy - s * a.yy;
+  const double yx = s * a.xx + c * a.xy;
+  const double yy = s * a.xy + c * a.yy;
+  return {xx * l.xx + xy * l.xy, xx * l.xy + xy * l.yy, yx * l.xx + yy * l.xy, yx * l.xy + yy * l.yy};
+}
+
+/// -epsilon times the tensile part of a stress: what repels particles along tensile principal directions.
+FPZ_LANE Symmetric tensile_repulsion(double epsilon, const Symmetric& s) {
+  const double p = 0.5 * (s.xx + s.yy);
+  const double d = 0.5 * (s.xx - s.yy);
+  const double r = __builtin_sqrt(d * d + s.xy * s.xy);
+  const double one = p + r > 0.0 ? p + r : 0.0;
+  const double two = p - r > 0.0 ? p - r : 0.0;
+  const double mean = -0.5 * epsilon * (one + two);
+  const double half = r > 0.0 ? -0.5 * epsilon * (one - two) / (r > 0.0 ? r : 1.0) : 0.0;
+  return {mean + half * d, mean - half * d, half * s.xy};
+}
+
+}  // namespace fpz::sph::detail

@@ -1,0 +1,134 @@
+// Checks of a scene and messages of failures.
+#include <cmath>
+#include <sstream>
+
+#include "fpz/sph/simulation.hpp"
+
+namespace fpz::sph {
+
+namespace {
+
+class Messages {
+ public:
+  void require(bool condition, const std::string& text) {
+    if (!condition) list_.push_back(text);
+  }
+  std::vector<std::string> take() { return std::move(list_); }
+
+ private:
+  std::vector<std::string> list_;
+};
+
+std::string entry(const std::string& name, double value, const std::string& constraint) {
+  std::ostringstream s;
+  s << name << " = " << value << ": " << constraint;
+  return s.str();
+}
+
+std::string number(const std::string& name, double value, const std::string& constraint) {
+  return entry(name, value, "must be " + constraint);
+}
+
+template <int Dim>
+void check_options(const Options<Dim>& o, Messages& m) {
+  const auto positive = [&](const char* name, double x) {
+    m.require(std::isfinite(x) && x > 0.0, number(name, x, "positive"));
+  };
+  const auto not_negative = [&](const char* name, double x) {
+    m.require(std::isfinite(x) && x >= 0.0, number(name, x, "zero or positive"));
+  };
+  positive("smoothing_ratio", o.smoothing_ratio);
+  positive("courant", o.courant);
+  if (o.rve_length.rule == RveLength::Rule::number) positive("rve_length", o.rve_length.value);
+  not_negative("viscosity_alpha", o.viscosity_alpha);
+  not_negative("viscosity_beta", o.viscosity_beta);
+  not_negative("artificial_stress", o.artificial_stress);
+  not_negative("skin", o.skin);
+  m.require(o.damping >= 0.0 && o.damping < 1.0, number("damping", o.damping, "in [0, 1)"));
+  m.require(std::isfinite(o.mass_scale) && o.mass_scale >= 1.0, number("mass_scale", o.mass_scale, "at least 1"));
+  m.require(o.release_integrity >= 0.0 && o.release_integrity < 1.0,
+            number("release_integrity", o.release_integrity, "in [0, 1)"));
+  for (int c = 0; c < Dim; ++c) {
+    m.require(std::isfinite(o.gravity[c]), number("gravity", o.gravity[c], "finite"));
+  }
+  m.require(o.threads >= 0, number("threads", o.threads, "zero (all) or positive"));
+}
+
+template <int Dim>
+void check_arrangement(const Scene<Dim>& s, Messages& m) {
+  const Arrangement<Dim>& a = s.arrangement;
+  m.require(std::isfinite(a.spacing) && a.spacing > 0.0, number("spacing", a.spacing, "positive"));
+  m.require(a.size() > 0, "arrangement: has no particles");
+  m.require(a.volume.size() == a.size() && a.group.size() == a.size(),
+            "arrangement: position, volume and group must have one length");
+  m.require(s.velocity.empty() || s.velocity.size() == a.size(),
+            "velocity: must be empty or have one entry per particle");
+  if (a.volume.size() != a.size() || a.group.size() != a.size()) return;
+  const auto groups = static_cast<int>(s.groups.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const std::string who = "particle " + std::to_string(i) + ": ";
+    if (!is_finite(a.position[i])) m.require(false, who + "position is not finite");
+    if (!(std::isfinite(a.volume[i]) && a.volume[i] > 0.0))
+      m.require(false, who + number("volume", a.volume[i], "positive"));
+    if (a.group[i] < -1 || a.group[i] >= groups)
+      m.require(false, who + number("group", a.group[i], "-1 or a group's index"));
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+std::vector<std::string> problems(const Scene<Dim>& s) {
+  Messages m;
+  check_options(s.options, m);
+  check_arrangement(s, m);
+  m.require((Dim == 3) == (s.setting == Setting::three_d), "setting: must be plane strain or plane stress in 2-D");
+  for (const Group<Dim>& g : s.groups) {
+    for (const std::optional<Motion>& motion : g.motion) {
+      if (!motion) continue;
+      m.require(std::isfinite(motion->speed), number("speed of group " + g.name, motion->speed, "finite"));
+      m.require(std::isfinite(motion->ramp) && motion->ramp >= 0.0,
+                number("ramp of group " + g.name, motion->ramp, "zero or positive"));
+    }
+  }
+  Parameters p = s.parameters;
+  p.rve_length = 1e-6;  // the particles carry their own
+  const Validation v = validate(p, s.setting);
+  for (const Violation& e : v.errors) m.require(false, entry(e.field, e.value, e.constraint));
+  return m.take();
+}
+
+std::string Outcome::message() const {
+  std::ostringstream s;
+  if (ok()) return "ok";
+  s << "particle " << particle << " at " << time << " s: ";
+  switch (failure) {
+    case Failure::none:
+      break;
+    case Failure::constitutive:
+      s << "the stress update failed (" << to_string(status) << "). ";
+      if (status == Status::snap_back) {
+        s << "H is too long for this material: a smaller spacing or rve_length is needed.";
+      } else if (status == Status::invalid_input) {
+        s << "Its strain is not finite: the run has exploded; likely the time step is too long (courant).";
+      } else if (status == Status::no_plastic_flow) {
+        s << "A dilation angle above zero is needed.";
+      } else {
+        s << "A shorter time step (courant) or another integrator may help.";
+      }
+      break;
+    case Failure::not_finite:
+      s << "its velocity is not finite; likely the time step is too long (courant) or a particle lost its neighbours.";
+      break;
+    case Failure::too_fast:
+      s << "it moves at " << speed
+        << " m/s, faster than sound: the run explodes; likely the time step is too long (courant) or the loading too "
+           "fast.";
+      break;
+  }
+  return s.str();
+}
+
+template std::vector<std::string> problems<2>(const Scene<2>&);
+
+}  // namespace fpz::sph

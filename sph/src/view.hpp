@@ -1,0 +1,88 @@
+// What the inner loops see: raw pointers into the arrays of a simulation, and constants. The loops are compiled once
+// per instruction set, so this header and theirs include nothing that could emit shared inline code.
+#pragma once
+
+#include <cstddef>
+
+namespace fpz::sph::detail {
+
+template <int Dim>
+struct View {
+  static constexpr auto d = static_cast<std::size_t>(Dim);
+  static constexpr std::size_t tensor = d * (d + 1) / 2;
+
+  // Bonds: block b owns the columns column[b] .. column[b+1]; entry (column, lane) is at column * lanes + lane.
+  // weight = V_i V_j grad_i W_ij (reference, paper's momentum: L_i times that). Padding: the particle itself, weight 0.
+  const int* column = nullptr;
+  const int* neighbour = nullptr;
+  double* weight[d] = {};
+  double* closeness = nullptr;  // updated: (W_ij / W(spacing))^n
+
+  double* position[d] = {};
+  double* velocity[d] = {};
+  double* acceleration[d] = {};
+  double* predicted[d] = {};
+  const double* mass = nullptr;
+  const double* inverse_mass = nullptr;
+  double* volume = nullptr;
+  double* density = nullptr;
+  const double* kind = nullptr;
+  double* stress[tensor] = {};
+  double* strain[tensor] = {};
+  double* correction[tensor] = {};
+  double* artificial[tensor] = {};
+  double* gradient[d * d] = {};
+  double* flux[d * d] = {};
+  double* rotation[2] = {};
+  const double* damping[d] = {};  // per component: zero where the velocity is prescribed
+  unsigned char* flagged = nullptr;
+
+  // Per block: work so far, and what the force at n will have done by n + 1/2.
+  double* damping_work = nullptr;
+  double* damping_next = nullptr;
+  double* viscous_work = nullptr;
+  double* viscous_next = nullptr;
+  double* artificial_work = nullptr;
+  double* artificial_next = nullptr;
+  unsigned char* bad = nullptr;
+
+  // Constants.
+  double step = 0.0;                           // s; of the kick: half at the start
+  double work_before = 0.0, work_after = 0.0;  // half a step each; before is zero at the start
+  double lambda = 0.0, mu = 0.0;
+  double sin_phi = 0.0, strength = 0.0, apex = 0.0;  // onset: strength = c0 cos(phi)
+  double gravity[d] = {};
+  double weight_scale = 1.0;  // gravity acts on mass * this
+  double top_speed = 0.0;     // m/s: faster than this is an explosion
+  bool damped = false;
+  double smoothing = 0.0, inverse_smoothing = 0.0;
+  double slope_norm = 0.0;  // kernel_norm / h^2
+  double reference_shape = 1.0;
+  int closeness_power = 4;
+  double rest_density = 0.0, sound_speed = 0.0, viscosity_alpha = 0.0, viscosity_beta = 0.0;
+  double artificial_stress = 0.0;
+};
+
+/// Number of a block, or of an entry of the arrays above.
+using Index = std::ptrdiff_t;
+
+/// Functions over a range of blocks [first, last).
+template <int Dim>
+struct Passes {
+  using Pass = void (*)(const View<Dim>&, Index first, Index last);
+  Pass drift;               ///< position += step velocity; predicted velocity of the full step
+  Pass gradient_reference;  ///< velocity gradient -> F, rotation, strain, elastic stress, flux, onset flags
+  Pass force_reference;     ///< internal force, damping, kick
+  Pass gradient_updated;    ///< kernel, L_i, velocity gradient -> density, rotated stress, flux, onset flags
+  Pass force_updated;       ///< the same with artificial viscosity and stress
+};
+
+/// The loops of one instruction set; [kernel][momentum form] where they differ.
+template <int Dim>
+const Passes<Dim>& baseline_passes(int kernel, int momentum);
+template <int Dim>
+const Passes<Dim>& avx2_passes(int kernel, int momentum);
+template <int Dim>
+const Passes<Dim>& avx512_passes(int kernel, int momentum);
+
+}  // namespace fpz::sph::detail

@@ -1,0 +1,150 @@
+// fpz-sph-bench: particle-steps per second of an elastic 2-D specimen (140 x 50 particles, cubic spline, h = 1.2 dx) on
+// one core and on all, for both configurations and every compiled version of the inner loops; the best of several
+// rounds. When LAMMPS (`lmp`) is on the PATH, the ratio to its bond-based peridynamics on the same specimen.
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "fpz/sph/simulation.hpp"
+
+namespace {
+
+using namespace fpz::sph;
+
+constexpr int columns = 140;
+constexpr int rows = 50;
+constexpr double spacing = 1e-3;
+
+double seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+/// A bar pulled slowly at one end, far below its strength.
+Scene<2> specimen(const Options<2>& options) {
+  Scene<2> s;
+  s.options = options;
+  s.parameters = {45e9, 0.24, 2400.0, 2.9e6, 5e6, 37.0, 5.0, 16.4e-6, 1e14, 1e11, 2e-3};
+  s.arrangement.spacing = spacing;
+  fpz::Vec<double, 2> low, high;
+  low << 0.0, 0.0;
+  high << columns * spacing, rows * spacing;
+  add_lattice<2>(s.arrangement, low, high);
+  Group<2> left{"left", {Motion{0.0, 0.0}, Motion{0.0, 0.0}}, true};
+  Group<2> right{"right", {Motion{1e-3, 1e-4}, std::nullopt}, true};
+  s.groups = {left, right};
+  for (std::size_t i = 0; i < s.arrangement.size(); ++i) {
+    if (s.arrangement.position[i][0] < 3.0 * spacing) s.arrangement.group[i] = 0;
+    if (s.arrangement.position[i][0] > (columns - 3) * spacing) s.arrangement.group[i] = 1;
+  }
+  return s;
+}
+
+/// Particle-steps per second, best round; 0 after a failure.
+double rate(const Options<2>& options, int rounds, int steps) {
+  Simulation<2> run(specimen(options));
+  double best = 0.0;
+  for (int r = 0; r < rounds; ++r) {
+    const double begin = seconds();
+    for (int k = 0; k < steps; ++k) {
+      if (const Outcome o = run.step(); !o.ok()) {
+        std::puts(o.message().c_str());
+        return 0.0;
+      }
+    }
+    best = std::max(best, columns * rows * steps / (seconds() - begin));
+  }
+  return best;
+}
+
+/// Bond-based peridynamics of LAMMPS on the same lattice (thickness one spacing, horizon 2.4 spacings): particle-steps
+/// per second of its own loop time, best of three runs, or 0 when it cannot be run.
+double lammps_rate() {
+  if (std::system("command -v lmp > /dev/null 2>&1") != 0) return 0.0;
+  const std::filesystem::path folder = std::filesystem::temp_directory_path() / "fpz-sph-bench-lammps";
+  std::filesystem::create_directories(folder);
+  const std::string input = folder / "in.peri";
+  const std::string log = folder / "log.peri";
+  std::ofstream(input) << "units si\nboundary f f f\natom_style peri\natom_modify map array\nneighbor 0.0003 bin\n"
+                       << "lattice sc " << spacing << "\nregion box block -2 " << columns + 2 << " -2 " << rows + 2
+                       << " -2 2 units lattice\nregion body block -0.1 " << columns - 0.9 << " -0.1 " << rows - 0.9
+                       << " -0.1 0.1 units lattice\ncreate_box 1 box\ncreate_atoms 1 region body\n"
+                       << "pair_style peri/pmb\npair_coeff * * 1.0e22 " << 2.4001 * spacing << " 1.0e10 0.25\n"
+                       << "set group all density 2400\nset group all volume " << spacing * spacing * spacing << "\n"
+                       << "velocity all create 1e-30 4928459\nfix 1 all nve\ntimestep 1.0e-8\nthermo 1000\n"
+                       << "run 200\nrun 2000\n";
+  double best = 0.0;
+  for (int k = 0; k < 3; ++k) {
+    const std::string command =
+        "OMP_NUM_THREADS=1 lmp -in " + input + " -log " + log + " -screen none > /dev/null 2>&1";
+    if (std::system(command.c_str()) != 0) return best;
+    std::ifstream in(log);
+    for (std::string line; std::getline(in, line);) {
+      double time = 0.0;
+      int steps = 0;
+      long atoms = 0;
+      if (std::sscanf(line.c_str(), "Loop time of %lf on 1 procs for %d steps with %ld atoms", &time, &steps, &atoms) ==
+              3 &&
+          steps == 2000) {
+        best = std::max(best, static_cast<double>(atoms) * steps / time);
+      }
+    }
+  }
+  return best;
+}
+
+const char* name(InstructionSet i) {
+  switch (i) {
+    case InstructionSet::best:
+      return "best";
+    case InstructionSet::baseline:
+      return "baseline";
+    case InstructionSet::avx2:
+      return "avx2";
+    case InstructionSet::avx512:
+      return "avx512";
+  }
+  return "";
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const bool quick = argc > 1 && std::string(argv[1]) == "--quick";
+  const int rounds = quick ? 1 : 12;
+  const int steps = quick ? 10 : 200;
+  std::printf("million particle-steps per second, %d particles\n%-12s %-9s %-8s %8s\n", columns * rows, "", "momentum",
+              "loops", "1 thread");
+  double reference = 0.0;
+  for (const Configuration c : {Configuration::reference, Configuration::updated}) {
+    for (const MomentumForm m : {MomentumForm::adjoint, MomentumForm::paper}) {
+      for (const InstructionSet i : {InstructionSet::baseline, InstructionSet::avx2, InstructionSet::avx512}) {
+        Options<2> o;
+        o.configuration = c;
+        o.momentum = m;
+        o.instruction_set = i;
+        o.threads = 1;
+        const double r = rate(o, rounds, steps);
+        if (r == 0.0) return 1;
+        if (c == Configuration::reference) reference = std::max(reference, r);
+        std::printf("%-12s %-9s %-8s %8.2f\n", c == Configuration::reference ? "reference" : "updated",
+                    m == MomentumForm::adjoint ? "adjoint" : "paper", name(i), r * 1e-6);
+      }
+    }
+  }
+  for (const Configuration c : {Configuration::reference, Configuration::updated}) {
+    Options<2> o;
+    o.configuration = c;
+    std::printf("%-12s adjoint   all threads %8.2f\n", c == Configuration::reference ? "reference" : "updated",
+                rate(o, rounds, steps) * 1e-6);
+  }
+  if (quick) return 0;
+  const double peri = lammps_rate();
+  if (peri > 0.0) {
+    std::printf("LAMMPS peri/pmb, one core: %.2f; reference is %.1f times as fast\n", peri * 1e-6, reference / peri);
+  } else {
+    std::puts("LAMMPS (lmp) not found or failed: no comparison");
+  }
+  return 0;
+}

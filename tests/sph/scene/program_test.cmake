@@ -1,0 +1,85 @@
+# Runs fpz-sph from outside: exit statuses, files, interruption, what happens without gnuplot or with files in the way.
+cmake_minimum_required(VERSION 3.25)
+file(REMOVE_RECURSE "${WORK}")
+file(MAKE_DIRECTORY "${WORK}/empty")
+
+# expect(<status> <text that the output must contain or ""> <argument>...)
+function(expect status text)
+  execute_process(COMMAND "${PROGRAM}" ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE out ERROR_VARIABLE err)
+  if(NOT result EQUAL status)
+    message(SEND_ERROR "fpz-sph ${ARGN}: exit status ${result}, not ${status}\n${out}${err}")
+  endif()
+  if(NOT text STREQUAL "")
+    string(FIND "${out}${err}" "${text}" found)
+    if(found EQUAL -1)
+      message(SEND_ERROR "fpz-sph ${ARGN}: no \"${text}\" in\n${out}${err}")
+    endif()
+  endif()
+endfunction()
+
+set(beam "${DATA}/scenes/beam_3pb.json")
+set(quick --set spacing=0.008 --set stop.time=3e-4 --set output.history_rows=50 --set output.frames=3)
+
+expect(0 "Examples:" --help)
+expect(0 "Example:" check --help)
+expect(0 "Example:" plot --help)
+expect(2 "")
+expect(2 "--out" "${beam}")
+expect(2 "missing.json" "${WORK}/missing.json" -o "${WORK}/x")
+expect(2 "did you mean" "${beam}" -o "${WORK}/x" --set methud.courant=0.3)
+
+expect(0 "the scene is valid" check "${beam}" --set spacing=0.008 -o "${WORK}/check")
+expect(0 "stop.time" "${beam}" -o "${WORK}/beam" ${quick})
+expect(2 "--force" "${beam}" -o "${WORK}/beam" ${quick})
+expect(0 "" "${beam}" -o "${WORK}/beam" ${quick} --force --no-pictures)
+expect(0 "pictures" plot "${WORK}/beam")
+expect(2 "no checkpoint" "${beam}" -o "${WORK}/beam" ${quick} --resume)
+foreach(file scene.json history.csv summary.json crack.csv frames.pvd frames/frame_00000.vtu load_deflection.png damage.png
+        velocity.png energies.svg ../check/scene.png)
+  if(NOT EXISTS "${WORK}/beam/${file}")
+    message(SEND_ERROR "${file} is missing")
+  endif()
+endforeach()
+
+# The scene in the folder makes the same run.
+expect(0 "" "${WORK}/beam/scene.json" -o "${WORK}/again" --no-pictures)
+file(READ "${WORK}/beam/history.csv" first)
+file(READ "${WORK}/again/history.csv" second)
+if(NOT first STREQUAL second)
+  message(SEND_ERROR "scene.json in the output folder gives another history")
+endif()
+
+# Interrupted by steps and resumed: the same history.
+expect(3 "--resume" "${beam}" -o "${WORK}/parts" ${quick} --no-pictures --steps 100)
+expect(0 "" "${beam}" -o "${WORK}/parts" ${quick} --no-pictures --resume --threads 2)
+file(READ "${WORK}/parts/history.csv" second)
+if(NOT first STREQUAL second)
+  message(SEND_ERROR "a resumed run gives another history")
+endif()
+
+# Killed in the middle: every file under its final name is whole, and the run goes on.
+execute_process(COMMAND timeout -s KILL 2 "${PROGRAM}" "${beam}" -o "${WORK}/killed" --set spacing=0.004 --set stop.time=10
+                        --set output.checkpoint_seconds=0.2 --set output.frames=1000 --no-pictures
+                RESULT_VARIABLE result OUTPUT_QUIET ERROR_QUIET)
+expect(3 "" "${beam}" -o "${WORK}/killed" --set spacing=0.004 --set stop.time=10 --set output.checkpoint_seconds=0.2
+       --set output.frames=1000 --no-pictures --resume --steps 10)
+file(GLOB_RECURSE left_over "${WORK}/killed/.*")
+if(left_over)
+  message(SEND_ERROR "temporary files are left: ${left_over}")
+endif()
+# SIGTERM leaves a checkpoint.
+execute_process(COMMAND timeout -s TERM 1 "${PROGRAM}" "${beam}" -o "${WORK}/terminated" --set spacing=0.004
+                        --set stop.time=10 --no-pictures
+                RESULT_VARIABLE result OUTPUT_VARIABLE out ERROR_QUIET)
+string(FIND "${out}" "--resume" found)
+if(found EQUAL -1 OR NOT EXISTS "${WORK}/terminated/checkpoint.bin")
+  message(SEND_ERROR "SIGTERM: no checkpoint, or not said: ${out}")
+endif()
+
+# A file where the folder should be.
+file(WRITE "${WORK}/file" "")
+expect(2 "" "${beam}" -o "${WORK}/file" ${quick})
+
+# Without gnuplot: a warning with a hint, nothing else.
+set(ENV{PATH} "${WORK}/empty")
+expect(0 "apt-get install gnuplot-nox" plot "${WORK}/beam")

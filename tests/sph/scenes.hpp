@@ -1,0 +1,96 @@
+// Small bodies that several tests of the particle method use.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <random>
+
+#include "fpz/sph/simulation.hpp"
+#include "support/materials.hpp"
+
+namespace fpz::sph::test {
+
+using Vector = Vec<double, 2>;
+
+inline Vector vec(double x, double y) {
+  Vector v;
+  v << x, y;
+  return v;
+}
+
+/// Concrete of Table 2 with a cohesion that cracks in mode I.
+inline Parameters concrete() {
+  Parameters p = fpz::test::table2();
+  p.cohesion = 5e6;
+  return p;
+}
+
+/// The same, too strong to crack.
+inline Parameters unbreakable() {
+  Parameters p = concrete();
+  p.tensile_strength = 1e12;
+  p.cohesion = 1e13;
+  return p;
+}
+
+/// columns x rows lattice of spacing 1 mm with its corner at the origin, optionally moved at random by up to `jitter`
+/// spacings, with volumes that vary alike.
+inline Scene<2> block(int columns, int rows, double jitter = 0.0, double spacing = 1e-3) {
+  Scene<2> s;
+  s.parameters = unbreakable();
+  s.arrangement.spacing = spacing;
+  add_lattice<2>(s.arrangement, vec(0.0, 0.0), vec(columns * spacing, rows * spacing));
+  std::mt19937_64 rng(3);
+  std::uniform_real_distribution<double> shift(-jitter, jitter);
+  if (jitter > 0.0) {
+    for (std::size_t i = 0; i < s.arrangement.size(); ++i) {
+      s.arrangement.position[i] += spacing * vec(shift(rng), shift(rng));
+      s.arrangement.volume[i] *= 1.0 + shift(rng);
+    }
+  }
+  s.options.threads = 1;
+  return s;
+}
+
+/// Start velocities from a field of the position.
+inline void set_velocity(Scene<2>& s, const std::function<Vector(const Vector&)>& field) {
+  s.velocity.clear();
+  for (const Vector& x : s.arrangement.position) s.velocity.push_back(field(x));
+}
+
+/// Puts the particles for which `inside` holds into a new group.
+inline void add_group(Scene<2>& s, const Group<2>& group, const std::function<bool(const Vector&)>& inside) {
+  const int index = static_cast<int>(s.groups.size());
+  s.groups.push_back(group);
+  for (std::size_t i = 0; i < s.arrangement.size(); ++i) {
+    if (inside(s.arrangement.position[i])) s.arrangement.group[i] = index;
+  }
+}
+
+/// Steps, failing the test on the first bad step.
+inline void advance(Simulation<2>& run, long long steps) {
+  for (long long k = 0; k < steps; ++k) {
+    const Outcome o = run.step();
+    ASSERT_TRUE(o.ok()) << o.message();
+  }
+}
+
+inline Vector momentum(const Simulation<2>& run) {
+  const Particles<2>& p = run.particles();
+  Vector sum = vec(0.0, 0.0);
+  for (std::size_t i = 0; i < p.count; ++i) sum += p.mass[i] * vec(p.velocity[0][i], p.velocity[1][i]);
+  return sum;
+}
+
+/// Both configurations and momentum forms.
+struct Variant {
+  Configuration configuration;
+  MomentumForm momentum;
+};
+inline constexpr Variant variants[] = {{Configuration::reference, MomentumForm::adjoint},
+                                       {Configuration::reference, MomentumForm::paper},
+                                       {Configuration::updated, MomentumForm::adjoint},
+                                       {Configuration::updated, MomentumForm::paper}};
+
+}  // namespace fpz::sph::test
