@@ -119,7 +119,7 @@ Eigen::VectorXd over_sizes(const std::vector<int>& which, const Eigen::VectorXd&
 
 /// Warns when residuals whose noise is known are much larger or smaller than that noise.
 void judge_scatter(const RowSet& set, double sum_of_squares, double redundancy, FitResult& result) {
-  if (redundancy < 1.0) return;
+  if (redundancy < 0.5) return;  // nothing is left to judge by
   const boost::math::chi_squared distribution(redundancy);
   const std::string ratio = number(std::sqrt(sum_of_squares / redundancy));
   if (sum_of_squares > quantile(complement(distribution, 1e-4))) {

@@ -17,6 +17,7 @@ Json fitted_json(const Calibration& all) {
     if (i >= r.values.size()) break;
     Json entry = {{"value", r.values[i]}, {"unit", p.unit}};
     if (i < r.standard_error.size()) entry["standard_error"] = r.standard_error[i];
+    if (i < r.correlated_error.size()) entry["correlated_error"] = r.correlated_error[i];
     if (i < r.lower_limit.size()) entry["confidence_interval"] = {r.lower_limit[i], r.upper_limit[i]};
     list[p.name] = entry;
   }

@@ -30,6 +30,7 @@ class MarkdownReport {
 
   std::string text() {
     head();
+    warnings();  // before the numbers that they are about
     parameters();
     undetermined();
     data();
@@ -39,7 +40,6 @@ class MarkdownReport {
     correlation();
     profiles();
     starts();
-    warnings();
     return std::move(out_).str();
   }
 
@@ -340,12 +340,13 @@ std::string short_table(const Calibration& all) {
     std::string name = p.name;
     name.resize(std::max<std::size_t>(name.size() + 1, 24), ' ');
     out << "  " << name << digits(r.values[i] / d.factor, 6);
-    if (i < r.standard_error.size()) out << " +- " << digits(r.standard_error[i] / d.factor, 2);
+    if (i < r.correlated_error.size()) out << " +- " << digits(r.correlated_error[i] / d.factor, 2);
     out << ' ' << d.unit;
     if (contains(r.at_lower_bound, k)) out << "  (at its lower bound)";
     if (contains(r.at_upper_bound, k)) out << "  (at its upper bound)";
     out << "\n";
   }
+  if (r.correlated_error.size() > 0) out << "  (+- standard errors, correlated residuals allowed for)\n";
   for (const Comparison& c : all.comparisons) {
     const DataSet& set = all.specification.data[c.data_set];
     if (set.role != Role::predict || !c.ok()) continue;
