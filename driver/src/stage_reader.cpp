@@ -215,7 +215,8 @@ class StageReader {
       const Place at(place, member);
       const auto known = std::find(stop_quantities.begin(), stop_quantities.end(), member.key);
       if (known == stop_quantities.end()) {
-        reader_.problem(at, "unknown quantity " + io::in_quotes(member.key) + io::suggestion(member.key, stop_quantities));
+        reader_.problem(at,
+                        "unknown quantity " + io::in_quotes(member.key) + io::suggestion(member.key, stop_quantities));
       }
       const bool damage = member.key == "D";
       const std::optional<double> value = damage ? reader_.number_between(at, 0.0, 1.0) : reader_.number(at);

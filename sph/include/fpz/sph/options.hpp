@@ -31,9 +31,9 @@ struct RveLength {
 };
 
 /// Width of the band that a crack takes, in particle sizes, so that the energy dissipated per crack area is G: two
-/// columns (cubic spline, h = 1.2 dx), of which one opens a little more than the other. Measured on the notched beam, energy
-/// over G with this width: 1.00 (spacing 4 mm) and 1.03 (2 mm) for a crack along a lattice direction, 0.87 and 0.83 (4 mm)
-/// at 30 and 45 degrees to it.
+/// columns (cubic spline, h = 1.2 dx), of which one opens a little more than the other. Measured on the notched beam,
+/// energy over G with this width: 1.00 (spacing 4 mm) and 1.03 (2 mm) for a crack along a lattice direction, 0.87 and
+/// 0.83 (4 mm) at 30 and 45 degrees to it.
 inline constexpr double band_width = 1.8;
 
 /// Which compiled version of the inner loops to run. All give the same bits.
