@@ -102,9 +102,7 @@ void Engine<Dim>::place_particles() {
     p.mass[i] = scene.parameters.density * a.volume[k] * o.mass_scale;
     p.inverse_mass[i] = 1.0 / p.mass[i];
     const double size = Dim == 2 ? std::sqrt(a.volume[k]) : std::cbrt(a.volume[k]);
-    p.length[i] = o.rve_length.rule == RveLength::Rule::number    ? o.rve_length.value
-                  : o.rve_length.rule == RveLength::Rule::spacing ? size
-                                                                  : band_width * size;
+    p.length[i] = o.rve_length.rule == RveLength::Rule::number ? o.rve_length.value : size;
     const int g = a.group[k];
     p.kind[i] = g >= 0 && scene.groups[static_cast<std::size_t>(g)].elastic ? kind::elastic : kind::intact;
   }

@@ -87,6 +87,9 @@ struct Engine {
   /// sum m v(n-1/2).v(n+1/2)/2, J.
   [[nodiscard]] double kinetic() const;
   [[nodiscard]] Outcome step();
+  /// H of a particle whose crack has the given unit normal (in the turning frame in `reference`), m: band_width() of
+  /// its neighbours, those that it still has.
+  [[nodiscard]] double band_length(std::size_t i, const Vec<double, Dim>& normal) const;
   /// Library update of the flagged particles of [first, last) blocks. Returns the first failure.
   [[nodiscard]] Outcome update_flagged(Index first, Index last);
   /// Forces at n, velocities to n + 1/2 over `step` (s).

@@ -1,5 +1,8 @@
 // The particles that the lane loops cannot finish: cracked ones and candidates for onset go through fpz::update.
+#include <cmath>
+
 #include "engine.hpp"
+#include "fpz/sph/band.hpp"
 #include "plane.hpp"
 
 namespace fpz::sph::detail {
@@ -17,6 +20,21 @@ Tensor<double, Dim> elastic_strain(const Elasticity<double>& bulk, const Tensor<
 }
 
 }  // namespace
+
+template <int Dim>
+double Engine<Dim>::band_length(std::size_t i, const Vec<double, Dim>& normal) const {
+  const Particles<Dim>& p = particles;
+  const Fields<Dim>& x = updated() ? p.position : p.start;
+  std::vector<Vec<double, Dim>> offsets;
+  for (const int neighbour : lists[i]) {
+    Vec<double, Dim>& r = offsets.emplace_back();
+    for (std::size_t c = 0; c < dimensions; ++c) {
+      r[static_cast<int>(c)] = x[c][static_cast<std::size_t>(neighbour)] - x[c][i];
+    }
+  }
+  const double size = Dim == 2 ? std::sqrt(p.volume[i]) : std::cbrt(p.volume[i]);
+  return band_width<Dim>(size, normal, offsets);
+}
 
 template <int Dim>
 Outcome Engine<Dim>::update_flagged(Index first, Index last) {
@@ -38,7 +56,14 @@ Outcome Engine<Dim>::update_flagged(Index first, Index last) {
       const auto c = static_cast<int>(k);
       increment[c] = updated() ? p.strain[k][i] : p.strain[k][i] - point.strain[c];
     }
-    const Report report = update<Dim>(m, update_options, point, increment, point);
+    const State<double, Dim> begin = point;
+    Report report = update<Dim>(m, update_options, begin, increment, point);
+    if (report.ok() && report.onset && scene.options.rve_length.rule == RveLength::Rule::band) {
+      // The plane is known now and does not depend on H: once more with the H that belongs to it.
+      p.length[i] = band_length(i, point.frame.row(0).transpose());
+      set_rve_length(m, p.length[i]);
+      report = update<Dim>(m, update_options, begin, increment, point);
+    }
     if (!report.ok()) return {Failure::constitutive, report.status, p.id[i], now(), 0.0};
     const double cosine = p.rotation[0][i];
     const double sine = p.rotation[1][i];
@@ -71,6 +96,7 @@ Outcome Engine<Dim>::update_flagged(Index first, Index last) {
   return {};
 }
 
+template double Engine<2>::band_length(std::size_t, const Vec<double, 2>&) const;
 template Outcome Engine<2>::update_flagged(Index, Index);
 
 }  // namespace fpz::sph::detail

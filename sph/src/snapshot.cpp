@@ -12,7 +12,7 @@ namespace fpz::sph {
 namespace {
 
 constexpr std::uint64_t magic = 0x314850535a5046ULL;  // "FPZSPH1"
-constexpr std::uint64_t version = 1;
+constexpr std::uint64_t version = 2;
 
 std::uint64_t fnv(std::span<const unsigned char> bytes) {
   std::uint64_t h = 14695981039346656037ULL;
@@ -166,6 +166,7 @@ void visit(A& archive, detail::Engine<Dim>& e) {
   archive(p.volume);
   archive(p.density);
   archive(p.kind);
+  archive(p.length);
   for (std::size_t i = 0; i < p.count; ++i) {
     if (p.kind[i] == kind::cracked) visit(archive, p.point[i]);
   }

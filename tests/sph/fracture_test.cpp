@@ -73,6 +73,60 @@ TEST(Fracture, PairInMixedModeFollowsTheLibrary) {
   }
 }
 
+/// A single column of particles, and a column of pairs, torn apart between prescribed ends: where it cracks the strain
+/// localises; every particle still follows the library on its own strain path, exactly, with the H that it got.
+void column_follows(int rows, RveLength::Rule rule) {
+  constexpr int columns = 12;
+  Scene<2> s = block(columns, rows, 0.0, spacing);
+  s.parameters = concrete();
+  s.options.rve_length.rule = rule;
+  s.options.damping = 0.3;
+  const double speed = 0.05;
+  const Motion still{0.0, 0.0};
+  add_group(s, {"left", {Motion{-speed, 5e-4}, still}, true}, [](const Vector& x) { return x[0] < 2.0 * spacing; });
+  add_group(s, {"right", {Motion{speed, 5e-4}, still}, true},
+            [](const Vector& x) { return x[0] > (columns - 2) * spacing; });
+  Simulation<2> run(s);
+  fpz::Options o;
+  o.method = Method::implicit;
+  Material<double> m = make_material(s.parameters, s.setting);
+  const Particles<2>& all = run.particles();
+  std::vector<State2> points(all.count);
+  double peak = 0.0;
+  for (int k = 0; k < 8000; ++k) {
+    ASSERT_TRUE(run.step().ok());
+    peak = std::max(peak, run.reaction(1)[0] / (rows * spacing));
+    for (std::size_t i = 0; i < all.count; ++i) {
+      Tensor<double, 2> increment;
+      for (std::size_t c = 0; c < 3; ++c) {
+        increment[static_cast<int>(c)] = all.strain[c][i] - points[i].strain[static_cast<int>(c)];
+      }
+      if (all.kind[i] == kind::elastic) {
+        points[i].strain += increment;
+        points[i].stress = m.bulk.stress<double, 2>(points[i].strain);
+      } else {
+        set_rve_length(m, all.length[i]);
+        ASSERT_TRUE(update<2>(m, o, points[i], increment, points[i]).ok());
+      }
+      for (std::size_t c = 0; c < 3; ++c) {
+        ASSERT_NEAR(all.stress[c][i], points[i].stress[static_cast<int>(c)], 1e-9 * s.parameters.tensile_strength)
+            << "step " << k << " particle " << all.id[i];
+      }
+    }
+  }
+  double integrity = 1.0;
+  for (const State2& point : points) integrity = std::min(integrity, point.crack.integrity);
+  EXPECT_LT(integrity, 0.1);
+  EXPECT_NEAR(peak / s.parameters.tensile_strength, 1.0, 0.02);
+}
+
+TEST(Fracture, EveryParticleOfAColumnFollowsTheLibrary) {
+  for (const RveLength::Rule rule : {RveLength::Rule::spacing, RveLength::Rule::band}) {
+    column_follows(1, rule);
+    column_follows(2, rule);
+  }
+}
+
 /// Opening mode I to far beyond separation dissipates sigma_t delta0 per area, H wide: the exact fracture energy.
 TEST(Fracture, PairDissipatesTheFractureEnergy) {
   Scene<2> s = pair(concrete(), Configuration::reference, 0.4, false);

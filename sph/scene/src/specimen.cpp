@@ -223,6 +223,7 @@ PointCloud frame_of(const Simulation<2>& run, const Specimen& specimen) {
   auto& displacement = add("displacement", 3, false);
   auto& elastic = add("elastic_energy", 1);
   auto& dissipated = add("dissipated_energy", 1);
+  auto& length = add("rve_length", 1);
   const auto vector = [](std::vector<double>& values, double x, double y) { values.insert(values.end(), {x, y, 0.0}); };
   for (std::size_t id = 0; id < a.size(); ++id) {
     const std::size_t i = run.slot(id);
@@ -248,12 +249,13 @@ PointCloud frame_of(const Simulation<2>& run, const Specimen& specimen) {
     const double square = stress.squaredNorm();
     elastic.push_back((square - bulk.lambda / (2.0 * bulk.lambda + 2.0 * bulk.mu) * trace * trace) / (4.0 * bulk.mu));
     dissipated.push_back(cracked ? p.point[i].crack.dissipated : 0.0);
+    length.push_back(cracked ? p.length[i] : 0.0);
   }
   return cloud;
 }
 
 double frame_bytes(std::size_t particles) {
-  constexpr double wide = 6.0 * 8.0, single = 17.0 * 4.0, cell = 17.0;  // bytes per particle
+  constexpr double wide = 6.0 * 8.0, single = 18.0 * 4.0, cell = 17.0;  // bytes per particle
   return (wide + single + cell) * static_cast<double>(particles) + 3000.0;
 }
 

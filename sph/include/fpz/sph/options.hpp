@@ -23,18 +23,12 @@ enum class MomentumForm : std::uint8_t {
 struct RveLength {
   enum class Rule : std::uint8_t {
     spacing,  ///< the particle's own size V^(1/Dim) (the paper)
-    band,     ///< band_width times that: the width over which a crack really spreads
+    band,     ///< the width over which a crack really spreads, found where it begins: band_width() of band.hpp
     number    ///< `value` for all
   };
   Rule rule = Rule::band;
   double value = 0.0;  ///< m
 };
-
-/// Width of the band that a crack takes, in particle sizes, so that the energy dissipated per crack area is G: two
-/// columns (cubic spline, h = 1.2 dx), of which one opens a little more than the other. Measured on the notched beam,
-/// energy over G with this width: 1.00 (spacing 4 mm) and 1.03 (2 mm) for a crack along a lattice direction, 0.87 and
-/// 0.83 (4 mm) at 30 and 45 degrees to it.
-inline constexpr double band_width = 1.8;
 
 /// Which compiled version of the inner loops to run. All give the same bits.
 enum class InstructionSet : std::uint8_t { best, baseline, avx2, avx512 };
