@@ -12,7 +12,7 @@ namespace fpz::sph {
 namespace {
 
 constexpr std::uint64_t magic = 0x314850535a5046ULL;  // "FPZSPH1"
-constexpr std::uint64_t version = 1;
+constexpr std::uint64_t version = 2;
 
 std::uint64_t fnv(std::span<const unsigned char> bytes) {
   std::uint64_t h = 14695981039346656037ULL;
@@ -107,6 +107,7 @@ std::uint64_t fingerprint(Scene<Dim> s) {
                          o.viscosity_beta,
                          o.artificial_stress,
                          o.skin,
+                         o.zero_energy_control,
                          o.damping,
                          o.mass_scale,
                          o.release_integrity,
@@ -175,6 +176,8 @@ void visit(A& archive, detail::Engine<Dim>& e) {
   archive(e.damping_next);
   archive(e.viscous_next);
   archive(e.artificial_next);
+  archive(e.control_work);
+  archive(e.control_next);
   visit(archive, e.built_at);
   archive(e.lists);
   for (auto& r : e.reaction) visit(archive, r);
