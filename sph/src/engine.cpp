@@ -80,6 +80,7 @@ void Engine<Dim>::place_particles() {
   clear(p.start), clear(p.position), clear(p.velocity), clear(p.acceleration), clear(p.predicted);
   clear(p.stress), clear(p.strain), clear(p.correction), clear(p.artificial);
   clear(p.gradient), clear(p.flux), clear(p.rotation), clear(damping), clear(built_at), clear(rate), clear(control);
+  clear(viscous_force), clear(artificial_force);
   // Padding lanes: harmless numbers, and inertia without end.
   p.mass.assign(padded, 1.0);
   p.inverse_mass.assign(padded, 0.0);
@@ -91,7 +92,7 @@ void Engine<Dim>::place_particles() {
   p.point.resize(p.count);
   flagged.assign(padded, 0);
   bad.assign(padded / lanes, 0);
-  for (Field* f : {&damping_work, &viscous_work, &artificial_work, &damping_next, &viscous_next, &artificial_next}) {
+  for (Field* f : {&damping_work, &viscous_work, &artificial_work, &damping_next}) {
     f->assign(padded / lanes, 0.0);
   }
 
@@ -151,6 +152,8 @@ void Engine<Dim>::point_view() {
     v.predicted[c] = p.predicted[c].data();
     v.damping[c] = damping[c].data();
     v.control[c] = control[c].data();
+    v.viscous_force[c] = viscous_force[c].data();
+    v.artificial_force[c] = artificial_force[c].data();
     v.gravity[c] = o.gravity[static_cast<int>(c)];
   }
   for (std::size_t k = 0; k < components; ++k) {
@@ -175,9 +178,7 @@ void Engine<Dim>::point_view() {
   v.damping_work = damping_work.data();
   v.damping_next = damping_next.data();
   v.viscous_work = viscous_work.data();
-  v.viscous_next = viscous_next.data();
   v.artificial_work = artificial_work.data();
-  v.artificial_next = artificial_next.data();
 
   v.step = dt;
   v.lambda = material.bulk.lambda;

@@ -35,7 +35,8 @@ struct Engine {
   Fields<Dim> damping;                            ///< local damping per component, zero where prescribed
   std::vector<unsigned char> flagged;
   Field damping_work, viscous_work, artificial_work;  ///< per block, J
-  Field damping_next, viscous_next, artificial_next;  ///< per block, J: see View
+  Field damping_next;                                 ///< per block, J: see View
+  Fields<Dim> viscous_force, artificial_force;        ///< updated: of the last step, N
   std::vector<unsigned char> bad;
   std::vector<std::size_t> slot_of;
 

@@ -336,24 +336,25 @@ void force_updated(const V& v, Index first, Index last) {
         ay[l] += f * ((rxy[i] + rxy[j[l]]) * gx + (ryy[i] + ryy[j[l]]) * gy);
       }
     }
-    double sum_x[n], sum_y[n], viscous_before[n], viscous_after[n], artificial_before[n], artificial_after[n];
+    // Half of a force's work is done with the velocity before it, half with the one after it: that of the last step's
+    // forces is counted now, with what the groups have made of the velocity.
+    double sum_x[n], sum_y[n], viscous[n], artificial[n];
     FPZ_LANES {
-      const double mx = -v.work_before * v.velocity[0][o + l];
-      const double my = -v.work_before * v.velocity[1][o + l];
-      viscous_before[l] = vx[l] * mx + vy[l] * my;
-      artificial_before[l] = ax[l] * mx + ay[l] * my;
+      const Index i = o + l;
+      const double mx = -v.work_before * v.velocity[0][i];
+      const double my = -v.work_before * v.velocity[1][i];
+      viscous[l] = (vx[l] + v.viscous_force[0][i]) * mx + (vy[l] + v.viscous_force[1][i]) * my;
+      artificial[l] = (ax[l] + v.artificial_force[0][i]) * mx + (ay[l] + v.artificial_force[1][i]) * my;
+      v.viscous_force[0][i] = vx[l];
+      v.viscous_force[1][i] = vy[l];
+      v.artificial_force[0][i] = ax[l];
+      v.artificial_force[1][i] = ay[l];
       sum_x[l] = fx[l] + vx[l] + ax[l];
       sum_y[l] = fy[l] + vy[l] + ay[l];
     }
+    v.viscous_work[b] += lane_sum(viscous);
+    v.artificial_work[b] += lane_sum(artificial);
     kick(v, b, sum_x, sum_y);
-    FPZ_LANES {
-      const double mx = -v.work_after * v.velocity[0][o + l];
-      const double my = -v.work_after * v.velocity[1][o + l];
-      viscous_after[l] = vx[l] * mx + vy[l] * my;
-      artificial_after[l] = ax[l] * mx + ay[l] * my;
-    }
-    account(v.viscous_work, v.viscous_next, b, viscous_before, viscous_after);
-    account(v.artificial_work, v.artificial_next, b, artificial_before, artificial_after);
   }
 }
 

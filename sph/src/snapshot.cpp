@@ -174,8 +174,8 @@ void visit(A& archive, detail::Engine<Dim>& e) {
   archive(e.viscous_work);
   archive(e.artificial_work);
   archive(e.damping_next);
-  archive(e.viscous_next);
-  archive(e.artificial_next);
+  visit(archive, e.viscous_force);
+  visit(archive, e.artificial_force);
   archive(e.control_work);
   archive(e.control_next);
   visit(archive, e.built_at);

@@ -44,10 +44,10 @@ struct View {
   double* damping_work = nullptr;
   double* damping_next = nullptr;
   double* viscous_work = nullptr;
-  double* viscous_next = nullptr;
   double* artificial_work = nullptr;
-  double* artificial_next = nullptr;
   unsigned char* bad = nullptr;
+  double* viscous_force[d] = {};  // updated: of the last step
+  double* artificial_force[d] = {};
 
   // Constants.
   double step = 0.0;                           // s; of the kick: half at the start
