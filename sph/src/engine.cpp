@@ -56,6 +56,11 @@ Engine<Dim>::Engine(const Scene<Dim>& s, double time_step) : scene(s), dt(time_s
     build_reference_bonds();
   }
   point_view();
+  if (o.zero_energy_control > 0.0 && !updated()) {
+    constexpr double longest = 16.0;  // rarely enough to cost little, often enough for a smooth motion
+    control_interval = static_cast<int>(std::clamp(1.0 / (control_rate() * dt), 1.0, longest));
+    view.control_viscosity = control_interval * control_viscosity();
+  }
 }
 
 template <int Dim>
@@ -74,7 +79,8 @@ void Engine<Dim>::place_particles() {
   };
   clear(p.start), clear(p.position), clear(p.velocity), clear(p.acceleration), clear(p.predicted);
   clear(p.stress), clear(p.strain), clear(p.correction), clear(p.artificial);
-  clear(p.gradient), clear(p.flux), clear(p.rotation), clear(damping), clear(built_at);
+  clear(p.gradient), clear(p.flux), clear(p.rotation), clear(damping), clear(built_at), clear(rate), clear(control);
+  clear(viscous_force), clear(artificial_force);
   // Padding lanes: harmless numbers, and inertia without end.
   p.mass.assign(padded, 1.0);
   p.inverse_mass.assign(padded, 0.0);
@@ -86,7 +92,7 @@ void Engine<Dim>::place_particles() {
   p.point.resize(p.count);
   flagged.assign(padded, 0);
   bad.assign(padded / lanes, 0);
-  for (Field* f : {&damping_work, &viscous_work, &artificial_work, &damping_next, &viscous_next, &artificial_next}) {
+  for (Field* f : {&damping_work, &viscous_work, &artificial_work, &damping_next}) {
     f->assign(padded / lanes, 0.0);
   }
 
@@ -137,11 +143,15 @@ void Engine<Dim>::point_view() {
   v.closeness = bonds.closeness.data();
   for (std::size_t c = 0; c < dimensions; ++c) {
     v.weight[c] = bonds.weight[c].data();
+    v.start[c] = p.start[c].data();
     v.position[c] = p.position[c].data();
     v.velocity[c] = p.velocity[c].data();
     v.acceleration[c] = p.acceleration[c].data();
     v.predicted[c] = p.predicted[c].data();
     v.damping[c] = damping[c].data();
+    v.control[c] = control[c].data();
+    v.viscous_force[c] = viscous_force[c].data();
+    v.artificial_force[c] = artificial_force[c].data();
     v.gravity[c] = o.gravity[static_cast<int>(c)];
   }
   for (std::size_t k = 0; k < components; ++k) {
@@ -153,6 +163,7 @@ void Engine<Dim>::point_view() {
   for (std::size_t k = 0; k < dimensions * dimensions; ++k) {
     v.gradient[k] = p.gradient[k].data();
     v.flux[k] = p.flux[k].data();
+    v.rate[k] = rate[k].data();
   }
   for (std::size_t k = 0; k < 2; ++k) v.rotation[k] = p.rotation[k].data();
   v.mass = p.mass.data();
@@ -165,9 +176,7 @@ void Engine<Dim>::point_view() {
   v.damping_work = damping_work.data();
   v.damping_next = damping_next.data();
   v.viscous_work = viscous_work.data();
-  v.viscous_next = viscous_next.data();
   v.artificial_work = artificial_work.data();
-  v.artificial_next = artificial_next.data();
 
   v.step = dt;
   v.lambda = material.bulk.lambda;

@@ -28,10 +28,15 @@ struct Engine {
   double dt = 0.0;  ///< s
 
   Particles<Dim> particles;
-  Fields<Dim> damping;  ///< local damping per component, zero where prescribed
+  Fields<Dim * Dim> rate;                         ///< reference: see View
+  Fields<Dim> control;                            ///< reference: force of the control of zero-energy velocities, N
+  int control_interval = 1;                       ///< steps from one action of the control to the next
+  double control_work = 0.0, control_next = 0.0;  ///< J: so far, and by its force at n until n + 1/2
+  Fields<Dim> damping;                            ///< local damping per component, zero where prescribed
   std::vector<unsigned char> flagged;
   Field damping_work, viscous_work, artificial_work;  ///< per block, J
-  Field damping_next, viscous_next, artificial_next;  ///< per block, J: see View
+  Field damping_next;                                 ///< per block, J: see View
+  Fields<Dim> viscous_force, artificial_force;        ///< updated: of the last step, N
   std::vector<unsigned char> bad;
   std::vector<std::size_t> slot_of;
 
@@ -60,6 +65,10 @@ struct Engine {
 
   [[nodiscard]] bool updated() const { return scene.options.configuration == Configuration::updated; }
   [[nodiscard]] double now() const { return static_cast<double>(steps) * dt; }
+  /// Of a prescribed component at n + 1/2, m/s.
+  [[nodiscard]] double prescribed_velocity(std::size_t group, std::size_t component) const {
+    return scene.groups[group].motion[component]->velocity(now() + 0.5 * dt);
+  }
 
   void place_particles();
   void connect_groups();
@@ -94,6 +103,15 @@ struct Engine {
   [[nodiscard]] Outcome update_flagged(Index first, Index last);
   /// Forces at n, velocities to n + 1/2 over `step` (s).
   void kick(double step);
+  /// Zero-energy velocities (options.zero_energy_control): acts on the velocities of the full step n, every
+  /// control_interval steps with the force of all of them. There it only takes from the leap-frog's energy, so it is
+  /// stable while a relative velocity does not change its sign.
+  [[nodiscard]] bool control_due() const;
+  void control_velocities();
+  void account_control(bool acted);
+  /// Upper bound of the rate at which the control damps, 1/s, in the undeformed body.
+  [[nodiscard]] double control_rate() const;
+  [[nodiscard]] double control_viscosity() const;
   /// Puts prescribed velocities in place of what the forces made of them; reactions and their work.
   void prescribe(double step);
   [[nodiscard]] Outcome find_bad() const;

@@ -34,26 +34,31 @@ void drift(const V& v, Index first, Index last) {
   }
 }
 
+/// Sums over the neighbours of (u_j - u_i) times the bond's weight: the gradient of u before correction, times V_i.
+FPZ_LANE void difference_sums(const V& v, Index b, const double* ux, const double* uy, double (&xx)[n], double (&xy)[n],
+                              double (&yx)[n], double (&yy)[n]) {
+  const Index o = b * n;
+  for (int k = v.column[b]; k < v.column[b + 1]; ++k) {
+    const Index m = Index{k} * n;
+    const int* j = v.neighbour + m;
+    const double* wx = v.weight[0] + m;
+    const double* wy = v.weight[1] + m;
+    FPZ_LANES {
+      const double dx = ux[j[l]] - ux[o + l];
+      const double dy = uy[j[l]] - uy[o + l];
+      xx[l] += dx * wx[l];
+      xy[l] += dx * wy[l];
+      yx[l] += dy * wx[l];
+      yy[l] += dy * wy[l];
+    }
+  }
+}
+
 void gradient_reference(const V& v, Index first, Index last) {
-  const double* ux = v.velocity[0];
-  const double* uy = v.velocity[1];
   for (Index b = first; b < last; ++b) {
     const Index o = b * n;
     double xx[n] = {}, xy[n] = {}, yx[n] = {}, yy[n] = {};
-    for (int k = v.column[b]; k < v.column[b + 1]; ++k) {
-      const Index m = Index{k} * n;
-      const int* j = v.neighbour + m;
-      const double* wx = v.weight[0] + m;
-      const double* wy = v.weight[1] + m;
-      FPZ_LANES {
-        const double dx = ux[j[l]] - ux[o + l];
-        const double dy = uy[j[l]] - uy[o + l];
-        xx[l] += dx * wx[l];
-        xy[l] += dx * wy[l];
-        yx[l] += dy * wx[l];
-        yy[l] += dy * wy[l];
-      }
-    }
+    difference_sums(v, b, v.velocity[0], v.velocity[1], xx, xy, yx, yy);
     double raised[n];
     FPZ_LANES {
       const Index i = o + l;
@@ -148,10 +153,63 @@ void force_reference(const V& v, Index first, Index last) {
   }
 }
 
-FPZ_LANE double power(double x, int e) {
-  double p = x;
-  for (int k = 1; k < e; ++k) p *= x;
-  return p;
+void gradient_control(const V& v, Index first, Index last) {
+  for (Index b = first; b < last; ++b) {
+    const Index o = b * n;
+    double xx[n] = {}, xy[n] = {}, yx[n] = {}, yy[n] = {};
+    difference_sums(v, b, v.predicted[0], v.predicted[1], xx, xy, yx, yy);
+    FPZ_LANES {
+      const Index i = o + l;
+      const Symmetric c = {v.correction[0][i], v.correction[1][i], v.correction[2][i]};
+      const double inverse = 1.0 / v.volume[i];
+      v.rate[0][i] = inverse * (xx[l] * c.xx + xy[l] * c.xy);
+      v.rate[1][i] = inverse * (xx[l] * c.xy + xy[l] * c.yy);
+      v.rate[2][i] = inverse * (yx[l] * c.xx + yy[l] * c.xy);
+      v.rate[3][i] = inverse * (yx[l] * c.xy + yy[l] * c.yy);
+    }
+  }
+}
+
+/// Along the present line of the bond, so that the force of a pair makes no moment; weighted with the kernel of the
+/// undeformed body.
+template <Kernel K>
+void force_control(const V& v, Index first, Index last) {
+  const double *sx = v.start[0], *sy = v.start[1], *x = v.position[0], *y = v.position[1];
+  const double *ux = v.predicted[0], *uy = v.predicted[1], *volume = v.volume;
+  const double *axx = v.rate[0], *axy = v.rate[1], *ayx = v.rate[2], *ayy = v.rate[3];
+  const double core = 0.01 * v.smoothing * v.smoothing;
+  for (Index b = first; b < last; ++b) {
+    const Index o = b * n;
+    double fx[n] = {}, fy[n] = {};
+    for (int k = v.column[b]; k < v.column[b + 1]; ++k) {
+      const int* j = v.neighbour + Index{k} * n;
+      FPZ_LANES {
+        const Index i = o + l;
+        const double rx = sx[j[l]] - sx[i];
+        const double ry = sy[j[l]] - sy[i];
+        const double dx = x[j[l]] - x[i];
+        const double dy = y[j[l]] - y[i];
+        const double q = __builtin_sqrt(rx * rx + ry * ry) * v.inverse_smoothing;
+        const double slope = v.slope_norm * (volume[i] * volume[j[l]]) * kernel_slope<K>(q);
+        const double ex = ux[j[l]] - ux[i] - 0.5 * ((axx[i] + axx[j[l]]) * rx + (axy[i] + axy[j[l]]) * ry);
+        const double ey = uy[j[l]] - uy[i] - 0.5 * ((ayx[i] + ayx[j[l]]) * rx + (ayy[i] + ayy[j[l]]) * ry);
+        const double pull = v.control_viscosity * slope * (ex * dx + ey * dy) / (dx * dx + dy * dy + core);
+        fx[l] += pull * dx;
+        fy[l] += pull * dy;
+      }
+    }
+    FPZ_LANES {
+      const Index i = o + l;
+      v.control[0][i] = fx[l];
+      v.control[1][i] = fy[l];
+      const double ax = fx[l] * v.inverse_mass[i];
+      const double ay = fy[l] * v.inverse_mass[i];
+      v.acceleration[0][i] += ax;
+      v.acceleration[1][i] += ay;
+      v.velocity[0][i] += v.step * ax;
+      v.velocity[1][i] += v.step * ay;
+    }
+  }
 }
 
 template <Kernel K, bool PaperMomentum>
@@ -177,7 +235,9 @@ void gradient_updated(const V& v, Index first, Index last) {
         const double gy = slope * ry;
         wx[l] = gx;
         wy[l] = gy;
-        const double near = kernel_shape<K>(q) * v.reference_shape;
+        // Not above one: particles closer than a spacing would repel more the more they are pulled.
+        const double shape = kernel_shape<K>(q) * v.reference_shape;
+        const double near = shape < 1.0 ? shape : 1.0;
         closeness[l] = (near * near) * (near * near);
         const double dx = ux[j[l]] - ux[o + l];
         const double dy = uy[j[l]] - uy[o + l];
@@ -276,29 +336,35 @@ void force_updated(const V& v, Index first, Index last) {
         ay[l] += f * ((rxy[i] + rxy[j[l]]) * gx + (ryy[i] + ryy[j[l]]) * gy);
       }
     }
-    double sum_x[n], sum_y[n], viscous_before[n], viscous_after[n], artificial_before[n], artificial_after[n];
+    // Half of a force's work is done with the velocity before it, half with the one after it: that of the last step's
+    // forces is counted now, with what the groups have made of the velocity.
+    double sum_x[n], sum_y[n], viscous[n], artificial[n];
     FPZ_LANES {
-      const double mx = -v.work_before * v.velocity[0][o + l];
-      const double my = -v.work_before * v.velocity[1][o + l];
-      viscous_before[l] = vx[l] * mx + vy[l] * my;
-      artificial_before[l] = ax[l] * mx + ay[l] * my;
+      const Index i = o + l;
+      const double mx = -v.work_before * v.velocity[0][i];
+      const double my = -v.work_before * v.velocity[1][i];
+      viscous[l] = (vx[l] + v.viscous_force[0][i]) * mx + (vy[l] + v.viscous_force[1][i]) * my;
+      artificial[l] = (ax[l] + v.artificial_force[0][i]) * mx + (ay[l] + v.artificial_force[1][i]) * my;
+      v.viscous_force[0][i] = vx[l];
+      v.viscous_force[1][i] = vy[l];
+      v.artificial_force[0][i] = ax[l];
+      v.artificial_force[1][i] = ay[l];
       sum_x[l] = fx[l] + vx[l] + ax[l];
       sum_y[l] = fy[l] + vy[l] + ay[l];
     }
+    v.viscous_work[b] += lane_sum(viscous);
+    v.artificial_work[b] += lane_sum(artificial);
     kick(v, b, sum_x, sum_y);
-    FPZ_LANES {
-      const double mx = -v.work_after * v.velocity[0][o + l];
-      const double my = -v.work_after * v.velocity[1][o + l];
-      viscous_after[l] = vx[l] * mx + vy[l] * my;
-      artificial_after[l] = ax[l] * mx + ay[l] * my;
-    }
-    account(v.viscous_work, v.viscous_next, b, viscous_before, viscous_after);
-    account(v.artificial_work, v.artificial_next, b, artificial_before, artificial_after);
   }
 }
 
 template <Kernel K, bool PaperMomentum>
-constexpr Passes<2> passes = {drift, gradient_reference, force_reference, gradient_updated<K, PaperMomentum>,
+constexpr Passes<2> passes = {drift,
+                              gradient_reference,
+                              force_reference,
+                              gradient_control,
+                              force_control<K>,
+                              gradient_updated<K, PaperMomentum>,
                               force_updated<K, PaperMomentum>};
 
 const Passes<2>& choose(int kernel, int momentum) {

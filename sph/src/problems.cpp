@@ -45,6 +45,7 @@ void check_options(const Options<Dim>& o, Messages& m) {
   not_negative("viscosity_beta", o.viscosity_beta);
   not_negative("artificial_stress", o.artificial_stress);
   not_negative("skin", o.skin);
+  not_negative("zero_energy_control", o.zero_energy_control);
   m.require(o.damping >= 0.0 && o.damping < 1.0, number("damping", o.damping, "in [0, 1)"));
   m.require(std::isfinite(o.mass_scale) && o.mass_scale >= 1.0, number("mass_scale", o.mass_scale, "at least 1"));
   m.require(o.release_integrity >= 0.0 && o.release_integrity < 1.0,

@@ -120,6 +120,7 @@ Energies Simulation<Dim>::energies() const {
                       (p.position[c][i] - p.start[c][i]);
     }
   }
+  sum.viscous = e.control_work;
   for (const double w : e.viscous_work) sum.viscous += w;
   for (const double w : e.damping_work) sum.damping += w;
   for (const double w : e.artificial_work) sum.artificial += w;

@@ -107,6 +107,7 @@ std::uint64_t fingerprint(Scene<Dim> s) {
                          o.viscosity_beta,
                          o.artificial_stress,
                          o.skin,
+                         o.zero_energy_control,
                          o.damping,
                          o.mass_scale,
                          o.release_integrity,
@@ -174,8 +175,10 @@ void visit(A& archive, detail::Engine<Dim>& e) {
   archive(e.viscous_work);
   archive(e.artificial_work);
   archive(e.damping_next);
-  archive(e.viscous_next);
-  archive(e.artificial_next);
+  visit(archive, e.viscous_force);
+  visit(archive, e.artificial_force);
+  archive(e.control_work);
+  archive(e.control_next);
   visit(archive, e.built_at);
   archive(e.lists);
   for (auto& r : e.reaction) visit(archive, r);

@@ -1,6 +1,7 @@
 // The stability limit of the leap-frog, measured on the very arrangement: 2/omega with omega the largest frequency of
 // the elastic body, by power iteration with the inner loops themselves. Eq 32 knows neither irregular particle
 // distances nor the large corrections at edges, which can shorten the limit several times.
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -63,7 +64,10 @@ double stability_limit(const Scene<Dim>& scene) {
   Scene<Dim> elastic = scene;
   elastic.options.configuration = Configuration::reference;  // the same operator while nothing has moved
   elastic.velocity.clear();
-  return 2.0 / detail::Engine<Dim>(elastic, 1.0).largest_frequency();
+  detail::Engine<Dim> engine(elastic, 1.0);
+  const double control = scene.options.configuration == Configuration::reference ? engine.control_rate() : 0.0;
+  const double limit = 2.0 / engine.largest_frequency();
+  return control > 0.0 ? std::min(limit, 2.0 / control) : limit;
 }
 
 template double stability_limit<2>(const Scene<2>&);

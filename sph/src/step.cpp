@@ -18,7 +18,10 @@ void Engine<Dim>::kick(double step) {
   v.work_after = 0.5 * dt;
   const auto pass = updated() ? passes->force_updated : passes->force_reference;
   for_chunks([&](Index first, Index last) { pass(v, first, last); });
+  const bool acts = control_due();
+  if (acts) control_velocities();
   prescribe(step);
+  account_control(acts);
 }
 
 template <int Dim>
@@ -26,11 +29,9 @@ void Engine<Dim>::prescribe(double step) {
   Particles<Dim>& p = particles;
   std::vector<Vec<double, Dim>> old_reaction = reaction;
   std::vector<Vec<double, Dim>> old_velocity = group_velocity;
-  const double between = now() + 0.5 * dt;
   for (std::size_t g = 0; g < scene.groups.size(); ++g) {
     for (std::size_t c = 0; c < dimensions; ++c) {
-      const std::optional<Motion>& motion = scene.groups[g].motion[c];
-      if (motion) group_velocity[g][static_cast<int>(c)] = motion->velocity(between);
+      if (scene.groups[g].motion[c]) group_velocity[g][static_cast<int>(c)] = prescribed_velocity(g, c);
     }
     reaction[g].setZero();
   }

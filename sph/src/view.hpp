@@ -18,6 +18,7 @@ struct View {
   double* weight[d] = {};
   double* closeness = nullptr;  // updated: (W_ij / W(spacing))^n
 
+  const double* start[d] = {};
   double* position[d] = {};
   double* velocity[d] = {};
   double* acceleration[d] = {};
@@ -33,6 +34,8 @@ struct View {
   double* artificial[tensor] = {};
   double* gradient[d * d] = {};
   double* flux[d * d] = {};
+  double* rate[d * d] = {};  // reference: gradient of `predicted` when the control acts
+  double* control[d] = {};   // and the force that it then exerts
   double* rotation[2] = {};
   const double* damping[d] = {};  // per component: zero where the velocity is prescribed
   unsigned char* flagged = nullptr;
@@ -41,10 +44,10 @@ struct View {
   double* damping_work = nullptr;
   double* damping_next = nullptr;
   double* viscous_work = nullptr;
-  double* viscous_next = nullptr;
   double* artificial_work = nullptr;
-  double* artificial_next = nullptr;
   unsigned char* bad = nullptr;
+  double* viscous_force[d] = {};  // updated: of the last step
+  double* artificial_force[d] = {};
 
   // Constants.
   double step = 0.0;                           // s; of the kick: half at the start
@@ -61,6 +64,7 @@ struct View {
   int closeness_power = 4;
   double rest_density = 0.0, sound_speed = 0.0, viscosity_alpha = 0.0, viscosity_beta = 0.0;
   double artificial_stress = 0.0;
+  double control_viscosity = 0.0;  // Pa s, times the number of steps that one action of the control stands for
 };
 
 /// Number of a block, or of an entry of the arrays above.
@@ -73,6 +77,8 @@ struct Passes {
   Pass drift;               ///< position += step velocity; predicted velocity of the full step
   Pass gradient_reference;  ///< velocity gradient -> F, rotation, strain, elastic stress, flux, onset flags
   Pass force_reference;     ///< internal force, damping, kick
+  Pass gradient_control;    ///< reference: gradient of the predicted velocity
+  Pass force_control;       ///< reference: what opposes relative velocities beyond that gradient, kick
   Pass gradient_updated;    ///< kernel, L_i, velocity gradient -> density, rotated stress, flux, onset flags
   Pass force_updated;       ///< the same with artificial viscosity and stress
 };

@@ -4,10 +4,11 @@
 namespace fpz::sph::detail {
 namespace {
 
-constexpr std::array<std::string_view, 17> keys = {
-    "configuration", "momentum",          "kernel",         "smoothing_ratio",   "courant",        "rve_length",
-    "integrator",    "viscosity_alpha",   "viscosity_beta", "artificial_stress", "skin",           "damping",
-    "mass_scale",    "release_integrity", "gravity",        "threads",           "instruction_set"};
+constexpr std::array<std::string_view, 18> keys = {
+    "configuration", "momentum",   "kernel",          "smoothing_ratio",     "courant",
+    "rve_length",    "integrator", "viscosity_alpha", "viscosity_beta",      "artificial_stress",
+    "skin",          "damping",    "mass_scale",      "zero_energy_control", "release_integrity",
+    "gravity",       "threads",    "instruction_set"};
 constexpr std::array<std::string_view, 2> configurations = {"reference", "updated"};
 constexpr std::array<std::string_view, 2> momenta = {"adjoint", "paper"};
 constexpr std::array<std::string_view, 2> kernels = {"cubic_spline", "wendland_c2"};
@@ -55,6 +56,7 @@ void read_method(const InputReader& r, const Place& place, Options<2>& o) {
   number("viscosity_beta", o.viscosity_beta, 0.0, 100.0);
   number("artificial_stress", o.artificial_stress, 0.0, 10.0);
   number("skin", o.skin, 0.0, 10.0);
+  number("zero_energy_control", o.zero_energy_control, 0.0, 100.0);
   number("damping", o.damping, 0.0, 0.99);
   number("mass_scale", o.mass_scale, 1.0, 1e12);
   number("release_integrity", o.release_integrity, 0.0, 0.99);

@@ -10,7 +10,7 @@ struct Energies {
   double elastic = 0.0;     ///< stored in bulk and cohesive zones
   double kinetic = 0.0;     ///< sum m v(n-1/2).v(n+1/2)/2, the leap-frog's own invariant
   double fracture = 0.0;    ///< dissipated by the cohesive zones
-  double viscous = 0.0;     ///< dissipated by artificial viscosity
+  double viscous = 0.0;     ///< dissipated by artificial viscosity and by the control of zero-energy velocities
   double damping = 0.0;     ///< dissipated by local damping
   double artificial = 0.0;  ///< taken by the artificial stress (may be negative)
   double kinetic_start = 0.0;
