@@ -57,6 +57,7 @@ Json method_json(const Options<2>& o) {
                              ? Json(o.rve_length.value)
                              : Json(lengths[static_cast<std::size_t>(o.rve_length.rule)])},
           {"integrator", to_string(o.method)},
+          {"zero_energy_control", o.zero_energy_control},
           {"damping", o.damping},
           {"mass_scale", o.mass_scale},
           {"release_integrity", o.release_integrity}};
