@@ -111,7 +111,7 @@ Picture column_picture(const Sweep& sweep, const std::vector<SweepRow>& rows, co
     panel.before = label_tics(sweep);
     panel.x = {0.5, static_cast<double>(values_of(sweep)) + 0.5};
   }
-  return with_legend(over_parameter ? what.y : what.y + "_over_" + what.x, panel, 2);
+  return with_legend(over_parameter ? what.y : what.y + "_over_" + what.x, panel, 1);
 }
 
 /// Load over deflection of all runs of a series, coloured from the first to the last value.
