@@ -169,9 +169,8 @@ void curves(std::ostream& out, const Results& r, const Gallery& gallery) {
   io::Panel right{"All series, " + finest, "mid-depth deflection, um", "load, kN", {}, "", {0, 120}, {0, 5}};
   k = 0;
   for (const Series& s : series_list) {
-    const auto runs = r.beam_spacing.of(s.name);
-    if (!runs.empty())
-      right.series.push_back(load_curve(*runs.back(), s.name + (", " + runs.back()->label), curve_style(k++)));
+    const Run* run = r.beam_spacing.find(s.name, finest);
+    if (run != nullptr) right.series.push_back(load_curve(*run, s.name, curve_style(k++)));
   }
   if (left.series.empty() || right.series.empty()) return;
   out << gallery.show(panels("beam", {left, right}), "beam", "Load over deflection of the notched beam");

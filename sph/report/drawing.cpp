@@ -61,6 +61,18 @@ std::vector<io::Series> outline(const CrackMap& map) {
   return list;
 }
 
+/// gnuplot sets long titles below each other anyway.
+int legend_columns(const io::Panel& panel) {
+  const bool longer =
+      std::any_of(panel.series.begin(), panel.series.end(), [](const io::Series& s) { return s.title.size() > 16; });
+  return longer ? 1 : 2;
+}
+
+int legend_lines(const io::Panel& panel) {
+  const int columns = legend_columns(panel);
+  return (static_cast<int>(panel.series.size()) + columns - 1) / columns;
+}
+
 }  // namespace
 
 std::string curve_style(std::size_t k) {
@@ -126,13 +138,14 @@ io::Picture crack_picture(const std::string& name, const std::vector<CrackMap>& 
 
 io::Picture panels(const std::string& name, const std::vector<io::Panel>& list) {
   const auto count = static_cast<double>(list.size());
-  double lines = 0.0;  // of the longest legend
-  for (const io::Panel& p : list) lines = std::max(lines, std::ceil(static_cast<double>(p.series.size()) / 2.0));
+  int lines = 0;  // of the longest legend
+  for (const io::Panel& p : list) lines = std::max(lines, legend_lines(p));
   const double legend = 22.0 * lines, below = legend + 64.0, height = below + 360.0;
   io::Picture picture(name, static_cast<int>(count == 1.0 ? 720 : 560 * count), static_cast<int>(height));
   for (std::size_t k = 0; k < list.size(); ++k) {
     const double left = static_cast<double>(k) / count, width = 1.0 / count;
-    picture.legend(list[k].series, {left + 0.02 * width, left + width, 4.0 / height, (legend + 4.0) / height}, 2);
+    picture.legend(list[k].series, {left + 0.02 * width, left + width, 4.0 / height, (legend + 4.0) / height},
+                   legend_columns(list[k]));
   }
   for (std::size_t k = 0; k < list.size(); ++k) {
     const double left = static_cast<double>(k) / count, width = 1.0 / count;
