@@ -1,23 +1,21 @@
 // Inverse problems of the fracture energy: one parameter from one energy, and what two energies leave open.
 #include <algorithm>
+#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <numbers>
-#include <sstream>
 #include <stdexcept>
 
 #include "fpz/calibration/fracture_energy.hpp"
+#include "words.hpp"
 
 namespace fpz::calibration {
 namespace {
 
-std::string number(double x) {
-  std::ostringstream text;
-  text.precision(5);
-  text << x;
-  return text.str();
-}
+/// Enough digits to find the value again in the input.
+std::string number(double x) { return detail::number(x, 5); }
 
 Parameters with(Parameters p, Parameter which, double value) {
   p.*info(which).member = value;
@@ -32,29 +30,13 @@ double energy_or_nan(const FractureEnergyTest& test, const Parameters& p) {
   return x.ok() ? x.values[0] : std::numeric_limits<double>::quiet_NaN();
 }
 
-/// The root of energy(exp(x)) = target between two x that bracket it (regula falsi, Illinois).
+/// The root of energy(exp(x)) = target between two x that bracket it.
 double refine(const Energy& energy, double target, double lo, double hi) {
-  double f_lo = energy(std::exp(lo)) - target;
-  double f_hi = energy(std::exp(hi)) - target;
-  int side = 0;
-  for (int k = 0; k < 200 && std::abs(hi - lo) > 1e-15; ++k) {
-    double x = (f_lo * hi - f_hi * lo) / (f_lo - f_hi);
-    if (!(x > lo && x < hi)) x = 0.5 * (lo + hi);
-    const double f = energy(std::exp(x)) - target;
-    if (std::abs(f) <= 4e-16 * target || x == lo || x == hi) return std::exp(x);
-    if ((f < 0.0) == (f_lo < 0.0)) {
-      lo = x;
-      f_lo = f;
-      if (side == -1) f_hi *= 0.5;
-      side = -1;
-    } else {
-      hi = x;
-      f_hi = f;
-      if (side == 1) f_lo *= 0.5;
-      side = 1;
-    }
-  }
-  return std::exp(0.5 * (lo + hi));
+  const auto excess = [&](double x) { return energy(std::exp(x)) - target; };
+  std::uintmax_t evaluations = 200;
+  const auto [below, above] = boost::math::tools::toms748_solve(
+      excess, lo, hi, boost::math::tools::eps_tolerance<double>(std::numeric_limits<double>::digits), evaluations);
+  return std::exp(0.5 * (below + above));
 }
 
 /// Samples the range in equal ratios and refines the bracket closest to `present`.

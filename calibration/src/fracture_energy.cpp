@@ -2,13 +2,13 @@
 
 #include <cmath>
 #include <numbers>
-#include <sstream>
 #include <stdexcept>
 
 #include "admissible.hpp"
 #include "fpz/calibration/onset_traction.hpp"
 #include "fpz/cohesive_law.hpp"
 #include "softening_quadrature.hpp"
+#include "words.hpp"
 
 namespace fpz::calibration {
 namespace {
@@ -28,12 +28,8 @@ Work<T> no_work(std::string why) {
   return {T(0.0), std::move(why)};
 }
 
-std::string number(double x) {
-  std::ostringstream text;
-  text.precision(6);
-  text << x;
-  return text.str();
-}
+/// Enough digits to find the value again in the input.
+std::string number(double x) { return detail::number(x, 6); }
 
 /// The jump's direction with exact values at the ends.
 Vec<double, 2> unit_direction(double angle_deg) {
@@ -114,12 +110,11 @@ class ShearedZone {
   ShearedZone(const CohesiveLaw<T>& law, double normal) : law_(law), normal_(normal) {}
 
   [[nodiscard]] SofteningRate<T> operator()(double z) const {
-    using std::sqrt;
     const double w = std::exp(-z);
     const T friction = normal_ * law_.tan_phi;
     const T apex = w * law_.apex;
     const T radius = w * law_.cohesion - friction;
-    const T shear = sqrt((radius - apex) * (radius + apex));
+    const T shear = surface_shear(radius, apex);
     const T dilation = law_.tan_psi * (w * law_.cohesion - normal_ * law_.tan_psi) / shear;
     const T slip = law_.delta0 / (1.0 + dilation);  // of d(up_s), per k
     // Elastic part of the slip, d(t_s/(w Ks))/dk; the normal spring softens only in tension.

@@ -37,18 +37,16 @@ CohesiveState<Slope, 1> fresh_zone(const CohesiveLaw<P>& law) {
 
 const char* name(Gauge g) { return g == Gauge::cmod ? "CMOD" : "deflection"; }
 
-/// The zone at the given jump, by one step of the library's implicit integrator: in pure opening the law depends on the
-/// jump alone, and one step of any size is exact (cohesive_update would divide long ones, for nothing).
+/// The zone at the given jump, by the library's implicit integrator, which is exact in pure opening.
 template <class Slope, class P>
 [[nodiscard]] Status open_to(const CohesiveLaw<P>& law, const CohesiveState<Slope, 1>& begin, const Slope& jump,
                              CohesiveState<Slope, 1>& end) {
   if (!std::isfinite(value(jump))) return Status::invalid_input;
-  constexpr double any_loss = 1.0;
+  Options options;
+  options.method = Method::implicit;
   const SeriesCompliance<P> rigid{P(0.0), P(0.0)};
-  Report report;
-  const bool done = fpz::detail::implicit_step(law, rigid, any_loss, begin, begin.jump,
-                                               Vec<Slope, 1>(Vec<Slope, 1>::Constant(jump)), end, report);
-  return done ? report.status : Status::non_convergence;
+  const Vec<Slope, 1> target = Vec<Slope, 1>::Constant(jump);
+  return integrate_cohesive(law, rigid, options, begin, begin.jump, target, end).status;
 }
 
 }  // namespace

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <stdexcept>
 
 #include "admissible.hpp"
 #include "fpz/calibration/mid_line.hpp"
+#include "words.hpp"
 
 namespace fpz::calibration {
 namespace {
@@ -27,11 +27,7 @@ class Checker {
                    "must be >= " + text(least) + " and <= " + text(most));
   }
 
-  static std::string text(double value) {
-    std::ostringstream out;
-    out << value;
-    return out.str();
-  }
+  static std::string text(double value) { return detail::number(value, 6); }
 
   Validation result;
 };

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "admissible.hpp"
+#include "fpz/calibration/onset_traction.hpp"
 #include "fpz/material.hpp"
 
 namespace fpz::calibration {
@@ -59,9 +60,7 @@ T compression_radius(const Criterion<T>& c, double pressure) {
 /// F = 0 on the plane of a shear box.
 template <class T>
 T shear_peak(const Criterion<T>& c, double pressure) {
-  using std::sqrt;
-  const T radius = c.cohesion + pressure * c.tangent;
-  return sqrt((radius - c.apex) * (radius + c.apex));
+  return surface_shear(T(c.cohesion + pressure * c.tangent), c.apex);
 }
 
 template <class T>

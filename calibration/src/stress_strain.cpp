@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <stdexcept>
 
 #include "admissible.hpp"
 #include "fpz/driver/dimension.hpp"
 #include "fpz/driver/stage_equations.hpp"
 #include "fpz/driver/trace.hpp"
+#include "words.hpp"
 
 namespace fpz::calibration {
 namespace {
@@ -19,12 +19,8 @@ class NoPrediction : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-std::string number(double x) {
-  std::ostringstream text;
-  text.precision(8);
-  text << x;
-  return text.str();
-}
+/// Enough digits to find the value again in the input.
+std::string number(double x) { return detail::number(x, 8); }
 
 /// One component of a state, derived ones included.
 template <int Dim, class T, class P>

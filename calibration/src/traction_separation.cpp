@@ -63,12 +63,11 @@ class ZoneRun {
     const double sign = sheared != test_.rows.end() && sheared->shear_jump < 0.0 ? -1.0 : 1.0;
     Vec<T, 2> onset;
     if (first.normal_traction) {
-      using std::sqrt;
       const double normal = *first.normal_traction;
       if (!(normal < plain_.tensile_strength)) return "row 1: its normal traction is not below the tensile strength";
       const T radius = law_.cohesion - normal * law_.tan_phi;
       onset[0] = T(normal);
-      onset[1] = sign * sqrt((radius - law_.apex) * (radius + law_.apex));
+      onset[1] = sign * surface_shear(radius, law_.apex);
     } else {
       const auto moved = std::find_if(test_.rows.begin(), test_.rows.end(), [](const ZoneRow& r) {
         return r.shear_jump != 0.0 || r.normal_jump.value_or(0.0) != 0.0;

@@ -68,6 +68,20 @@ NeighbourLists find_neighbours(const Fields<Dim>& position, std::size_t count, d
 }
 
 template <int Dim>
+void separate(NeighbourLists& lists, const std::vector<Cut<Dim>>& cuts, const Fields<Dim>& start) {
+  static_assert(Dim == 2, "the crossing of cut.hpp");
+  if (cuts.empty()) return;
+  const auto point = [&start](std::size_t i) { return Vec<double, Dim>(start[0][i], start[1][i]); };
+  for (std::size_t i = 0; i < lists.size(); ++i) {
+    std::erase_if(lists[i], [&](int j) {
+      return std::any_of(cuts.begin(), cuts.end(), [&](const Cut<Dim>& cut) {
+        return crosses(cut, point(i), point(static_cast<std::size_t>(j)));
+      });
+    });
+  }
+}
+
+template <int Dim>
 std::vector<std::size_t> curve_order(const std::vector<Vec<double, Dim>>& points, double cell) {
   Vec<double, Dim> low = points.front();
   for (const Vec<double, Dim>& p : points) low = low.cwiseMin(p);
@@ -112,6 +126,7 @@ Bonds<Dim> pack(const NeighbourLists& lists, std::size_t padded, bool with_close
 
 template NeighbourLists find_neighbours<2>(const Fields<2>&, std::size_t, double);
 template NeighbourLists find_neighbours<3>(const Fields<3>&, std::size_t, double);
+template void separate<2>(NeighbourLists&, const std::vector<Cut<2>>&, const Fields<2>&);
 template std::vector<std::size_t> curve_order<2>(const std::vector<Vec<double, 2>>&, double);
 template std::vector<std::size_t> curve_order<3>(const std::vector<Vec<double, 3>>&, double);
 template Bonds<2> pack<2>(const NeighbourLists&, std::size_t, bool);

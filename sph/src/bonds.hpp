@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "fpz/sph/cut.hpp"
 #include "fpz/sph/particles.hpp"
 
 namespace fpz::sph::detail {
@@ -16,6 +17,10 @@ using NeighbourLists = std::vector<std::vector<int>>;
 /// between pieces). Non-finite positions find nothing.
 template <int Dim>
 [[nodiscard]] NeighbourLists find_neighbours(const Fields<Dim>& position, std::size_t count, double reach);
+
+/// Drops the pairs whose connecting line at the start crosses a cut.
+template <int Dim>
+void separate(NeighbourLists& lists, const std::vector<Cut<Dim>>& cuts, const Fields<Dim>& start);
 
 /// Order of points along a Morton curve with cells of the given size: order[slot] is the point's index. Ties by index.
 template <int Dim>

@@ -1,4 +1,5 @@
 // Checks of a scene and messages of failures.
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -75,6 +76,25 @@ void check_arrangement(const Scene<Dim>& s, Messages& m) {
   }
 }
 
+template <int Dim>
+void check_cuts(const Arrangement<Dim>& a, Messages& m) {
+  for (std::size_t k = 0; k < a.cuts.size(); ++k) {
+    const std::string who = "cut " + std::to_string(k) + ": ";
+    const auto& corner = a.cuts[k].corner;
+    const bool finite = std::all_of(corner.begin(), corner.end(), [](const auto& x) { return is_finite(x); });
+    m.require(finite, who + "an end is not finite");
+    if (!finite) continue;
+    const bool extends = (corner[1] - corner[0]).norm() > 0.0;
+    m.require(extends, who + "has no length");
+    for (std::size_t i = 0; extends && i < a.size(); ++i) {
+      m.require(!lies_on(a.cuts[k], a.position[i]),
+                who + "particle " + std::to_string(i) +
+                    " lies on it and belongs to neither side; move the particles (a notch: align them to it, or give "
+                    "it a width)");
+    }
+  }
+}
+
 }  // namespace
 
 template <int Dim>
@@ -82,6 +102,7 @@ std::vector<std::string> problems(const Scene<Dim>& s) {
   Messages m;
   check_options(s.options, m);
   check_arrangement(s, m);
+  check_cuts(s.arrangement, m);
   m.require((Dim == 3) == (s.setting == Setting::three_d), "setting: must be plane strain or plane stress in 2-D");
   for (const Group<Dim>& g : s.groups) {
     for (const std::optional<Motion>& motion : g.motion) {

@@ -10,6 +10,7 @@ namespace fpz::sph::detail {
 template <int Dim>
 void Engine<Dim>::build_reference_bonds() {
   lists = find_neighbours<Dim>(particles.start, particles.count, kernel_support * h);
+  separate<Dim>(lists, scene.arrangement.cuts, particles.start);
   bonds = pack<Dim>(lists, particles.padded(), false);
   builds = 1;
   for (std::size_t i = 0; i < particles.count; ++i) write_row(i);

@@ -128,6 +128,9 @@ std::uint64_t fingerprint(Scene<Dim> s) {
   for (auto& x : s.velocity) visit(w, x);
   w(s.arrangement.volume);
   w(s.arrangement.group);
+  for (auto& cut : s.arrangement.cuts) {
+    for (auto& x : cut.corner) visit(w, x);
+  }
   for (const Group<Dim>& g : s.groups) {
     put(g.elastic);
     for (const auto& m : g.motion) {

@@ -7,6 +7,7 @@ template <int Dim>
 void Engine<Dim>::rebuild_lists() {
   const double skin = scene.options.skin * scene.arrangement.spacing;
   lists = find_neighbours<Dim>(particles.position, particles.count, kernel_support * h + skin);
+  separate<Dim>(lists, scene.arrangement.cuts, particles.start);
   bonds = pack<Dim>(lists, particles.padded(), true);
   built_at = particles.position;
   ++builds;

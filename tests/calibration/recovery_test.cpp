@@ -4,14 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numbers>
-#include <random>
 #include <string>
 #include <vector>
 
+#include "fit_models.hpp"
 #include "fpz/calibration/calibration.hpp"
 #include "fpz/io/problems.hpp"
-#include "program_files.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace fpz::calibration {
 namespace {
@@ -109,7 +108,7 @@ class Recovery : public ::testing::Test {
     expect_recovered(set, fit);
   }
 
-  test::TemporaryFolder folder_{"recovery"};
+  test::TemporaryFolder folder_;
 };
 
 Eigen::VectorXd line(Eigen::Index n, double from, double to) { return Eigen::VectorXd::LinSpaced(n, from, to); }
@@ -243,23 +242,11 @@ TEST_F(Recovery, JacobianOfTheAssembledProblem) {
   }
 }
 
-/// Independent standard normal numbers, the same on every platform.
-class Normal {
- public:
-  explicit Normal(std::uint64_t seed) : random_(seed) {}
-  double operator()() {
-    const double u = uniform(), v = uniform();
-    return std::sqrt(-2.0 * std::log(u)) * std::cos(2.0 * std::numbers::pi * v);
-  }
-
- private:
-  double uniform() { return (static_cast<double>(random_() >> 11) + 0.5) * 0x1p-53; }
-  std::mt19937_64 random_;
-};
-
-/// In how many of 100 series of 2 % noise the joint 95 % region of the fitted parameters holds the truth. With the
-/// right coverage fewer than 90 come in one of a hundred choices of the seeds.
-int covered(const Specification& exact_spec, bool known) {
+/// The share of 200 series of 2 % noise for which the joint 95 % region of the fitted parameters holds the truth. Over
+/// 1000 series it is 0.937 with known and 0.925 with estimated noise (regions are those of the linearised model); a
+/// share below 0.88 would then come in one of a hundred choices of the seeds.
+constexpr double least_coverage = 0.88;
+double covered(const Specification& exact_spec, bool known) {
   const FitProblem clean = make_problem(exact_spec);
   Eigen::VectorXd x(static_cast<Eigen::Index>(clean.parameters.size()));
   for (std::size_t k = 0; k < clean.parameters.size(); ++k) {
@@ -270,8 +257,8 @@ int covered(const Specification& exact_spec, bool known) {
   int inside = 0;
   FitOptions options;
   options.starts = 1;
-  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
-    Normal normal(seed);
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    testing::Normal normal(seed);
     FitProblem problem = clean;
     for (Observations& o : problem.data) {
       o.measured = o.forward(x, false).values;
@@ -284,7 +271,7 @@ int covered(const Specification& exact_spec, bool known) {
     const FitResult r = fit(problem, options);
     inside += r.usable() && inside_confidence_region(r, x, 0.95) ? 1 : 0;
   }
-  return inside;
+  return inside / 200.0;
 }
 
 const std::string opening_set =
@@ -296,7 +283,7 @@ TEST_F(Recovery, CoverageOfTwoSetsWithKnownNoise) {
   std::vector<std::string> fitted = strengths;
   fitted.emplace_back("delta0");
   const std::string sets = strength_set(plausible_strengths()) + ", " + opening_set;
-  EXPECT_GE(covered(read(specification(fitted, sets)), true), 90);
+  EXPECT_GE(covered(read(specification(fitted, sets)), true), least_coverage);
 }
 
 /// The strengths leave about four degrees of freedom for their noise, which the region has to know of.
@@ -305,12 +292,12 @@ TEST_F(Recovery, CoverageOfTwoSetsWithEstimatedNoise) {
   std::vector<std::string> fitted = strengths;
   fitted.emplace_back("delta0");
   const std::string sets = strength_set(plausible_strengths()) + ", " + opening_set;
-  EXPECT_GE(covered(read(specification(fitted, sets)), false), 90);
+  EXPECT_GE(covered(read(specification(fitted, sets)), false), least_coverage);
 }
 
 TEST_F(Recovery, CoverageOfOneSetWithEstimatedNoise) {
   csv({"opening", "normal_traction"}, {line(12, 2e-6, 60e-6), Eigen::VectorXd::Constant(12, 1e6)});
-  EXPECT_GE(covered(read(specification({"tensile_strength", "delta0"}, opening_set)), false), 90);
+  EXPECT_GE(covered(read(specification({"tensile_strength", "delta0"}, opening_set)), false), least_coverage);
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include "fpz/io/csv.hpp"
 #include "fpz/io/material_file.hpp"
 #include "fpz/io/output.hpp"
-#include "program_files.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace fpz::calibration {
 namespace {
@@ -29,7 +29,7 @@ Specification undetermined() {
 }
 
 TEST(Report, MaterialIsReadByTheDriversReader) {
-  const test::TemporaryFolder folder("report");
+  const test::TemporaryFolder folder;
   const Calibration c = calibrate(example("strength"));
   ASSERT_TRUE(c.result.usable()) << c.result.message;
   write_report(c, {folder.path(), false, false, {}});
@@ -115,7 +115,7 @@ TEST(Report, CurvesHaveABandAroundTheFit) {
 }
 
 TEST(Report, AnUnusableFitLeavesNoMaterial) {
-  const test::TemporaryFolder folder("unusable");
+  const test::TemporaryFolder folder;
   folder.write("material.json", "{}");  // of an earlier fit
   const Calibration c = calibrate(undetermined());
   EXPECT_EQ(c.result.status, FitStatus::undetermined);

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "program_files.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace fpz::calibration {
 namespace {
@@ -213,7 +213,7 @@ class SpecificationFiles : public ::testing::Test {
     EXPECT_NE(text.find(part), std::string::npos) << "no \"" << part << "\" in\n" << text;
   }
 
-  test::TemporaryFolder folder_{"specification"};
+  test::TemporaryFolder folder_;
 };
 
 TEST_F(SpecificationFiles, Good) { EXPECT_EQ(message("CMOD,P\n0.001,100\n0.002,200\n0.003,300\n0.004,400\n"), ""); }

@@ -1,13 +1,11 @@
 // Tests of Table 1's material, built without a path file.
 #pragma once
 
-#include <stdlib.h>
-
-#include <filesystem>
 #include <string>
 
 #include "fpz/driver/run.hpp"
 #include "support/materials.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace fpz::driver {
 
@@ -47,23 +45,6 @@ inline Test four_stages(int factor) {
   return test;
 }
 
-/// A folder of its own that goes away with the test.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "fpz-driver-XXXXXX").string();
-    path_ = ::mkdtemp(name.data());
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
+using test::TemporaryFolder;
 
 }  // namespace fpz::driver

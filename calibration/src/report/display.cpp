@@ -1,8 +1,8 @@
 #include "display.hpp"
 
-#include <array>
 #include <cmath>
-#include <cstdio>
+
+#include "words.hpp"
 
 namespace fpz::calibration::detail {
 
@@ -20,9 +20,7 @@ Display display(std::string_view si_unit, double size) {
 
 std::string digits(double x, int significant) {
   if (std::isnan(x)) return "-";
-  std::array<char, 40> text{};
-  std::snprintf(text.data(), text.size(), "%.*g", significant, x);
-  return text.data();
+  return number(x, significant);
 }
 
 std::string pretty_unit(std::string_view unit) {

@@ -232,18 +232,9 @@ template <int Dim>
   s.strain = saved.strain + load_factor * unit;
   const auto r = phase.template point<double>(y);
   const Vec<double, Dim> drive = detail::drive<double, Dim>(m, s.frame, s.strain);
-  const double normal = drive[0] + z.offset[0] - r.c.normal * r.hyp.normal;
-  z.slip += std::max(dkappa - (normal - z.plastic_jump[0]), 0.0);
-  z.plastic_jump[0] = normal;
-  z.integrity = r.w;
-  z.dissipated += dissipated;
-  z.traction[0] = r.w * r.hyp.normal;
+  detail::end_yielding<double, Dim>(z, drive, r, y.template head<NS>(), dkappa, dissipated);
   z.jump[0] = drive[0] - m.series.normal * z.traction[0];
-  for (int k = 1; k < Dim; ++k) {
-    z.plastic_jump[k] = drive[k] + z.offset[k] - r.c.shear * y[k - 1];
-    z.traction[k] = r.w * y[k - 1];
-    z.jump[k] = drive[k] - m.series.shear * z.traction[k];
-  }
+  for (int k = 1; k < Dim; ++k) z.jump[k] = drive[k] - m.series.shear * z.traction[k];
   s.stress = detail::macro_stress(m, s);
   end = s;
   return report;

@@ -219,17 +219,7 @@ template <class T, int Dim, class P>
     fraction = yielded.fraction;
     stalled = value(fraction) > before ? 0 : stalled + 1;
     const RatePoint<T, NS> r = phase.point(yielded.y);
-    // The surface and continuity give the plastic jump; a = d(up_n) + d(slip) gives the slip (eq 47).
-    const Vec<T, Dim> drive = d0 + rate * fraction + z.offset;
-    const T normal = drive[0] - r.c.normal * r.hyp.normal;
-    const T slip = yielded.y[NS] - (normal - z.plastic_jump[0]);
-    if (value(slip) > 0.0) z.slip += slip;  // rounding of a pure opening must not make it negative
-    z.plastic_jump[0] = normal;
-    for (int k = 0; k < NS; ++k) z.plastic_jump[k + 1] = drive[k + 1] - r.c.shear * yielded.y[k];
-    z.integrity = r.w;
-    z.dissipated += yielded.dissipated;
-    z.traction[0] = r.w * r.hyp.normal;
-    for (int k = 0; k < NS; ++k) z.traction[k + 1] = r.w * yielded.y[k];
+    end_yielding<T, Dim>(z, d0 + rate * fraction, r, yielded.y.template head<NS>(), yielded.y[NS], yielded.dissipated);
     if (!yielded.unloaded) return finish();
   }
   z.traction = elastic_traction(law, series, z.integrity, Vec<T, Dim>(d1 + z.offset - z.plastic_jump));

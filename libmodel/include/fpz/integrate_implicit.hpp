@@ -66,8 +66,10 @@ template <class T, int Dim>
 }
 
 /// Largest loss of integrity in one backward Euler step. Its error there is a few thousandths of sigma_t0; an increment
-/// that would lose more is taken in parts.
-inline constexpr double largest_integrity_loss = 0.02;
+/// that would lose more is taken in parts. With the normal component alone tau_n stays at sigma_t0, and one step of any
+/// size is exact.
+template <int Dim>
+inline constexpr double largest_integrity_loss = Dim == 1 ? 1.0 : 0.02;
 
 /// One backward Euler step over the drive d0 -> d1. The solve runs on plain values; one Newton step in T carries
 /// derivatives over exactly. Writes `end` only on success; `begin` and `end` may be one object. Returns false, and
@@ -152,7 +154,7 @@ template <class T, int Dim, class P>
   constexpr double smallest_part = 1e-9;  // below it the loss is a jump of the solution, not a matter of step size
   Report report;
   report.substeps = 1;
-  if (implicit_step(law, series, largest_integrity_loss, begin, d0, d1, end, report)) return report;
+  if (implicit_step(law, series, largest_integrity_loss<Dim>, begin, d0, d1, end, report)) return report;
   CohesiveState<T, Dim> z = begin;
   Vec<T, Dim> from = d0;
   report.substeps = 0;
@@ -161,7 +163,7 @@ template <class T, int Dim, class P>
   while (done < 1.0) {
     const double next = part >= 1.0 - done ? 1.0 : done + part;
     const Vec<T, Dim> to = next == 1.0 ? d1 : Vec<T, Dim>(d0 + (d1 - d0) * T(next));
-    const double allowed = part > smallest_part ? largest_integrity_loss : 1.0;
+    const double allowed = part > smallest_part ? largest_integrity_loss<Dim> : 1.0;
     if (!implicit_step(law, series, allowed, z, from, to, z, report)) {
       part *= 0.5;
       continue;

@@ -41,6 +41,25 @@ struct RatePoint {
   T ratio;  ///< c_n / c_s
 };
 
+/// Puts a zone to the end of a yielding phase, where tau_s = `shear` and the drive is `drive`: the surface and
+/// continuity give the plastic jump; `inelastic` = d(up_n) + d(slip) gives the slip (eq 47). The jump is left to the
+/// caller.
+template <class T, int Dim>
+void end_yielding(CohesiveState<T, Dim>& z, const Vec<T, Dim>& drive, const RatePoint<T, Dim - 1>& r,
+                  const Vec<T, Dim - 1>& shear, const T& inelastic, const T& dissipated) {
+  const T normal = drive[0] + z.offset[0] - r.c.normal * r.hyp.normal;
+  const T slip = inelastic - (normal - z.plastic_jump[0]);
+  if (value(slip) > 0.0) z.slip += slip;  // rounding of a pure opening must not make it negative
+  z.plastic_jump[0] = normal;
+  z.traction[0] = r.w * r.hyp.normal;
+  for (int k = 1; k < Dim; ++k) {
+    z.plastic_jump[k] = drive[k] + z.offset[k] - r.c.shear * shear[k - 1];
+    z.traction[k] = r.w * shear[k - 1];
+  }
+  z.integrity = r.w;
+  z.dissipated += dissipated;
+}
+
 /// Coefficients of the rate equations at (tau_s, w). `direction`: where tau_s heads, used only at tau_s = 0.
 template <int NS, class T, class P>
 [[nodiscard]] FPZ_INLINE RatePoint<T, NS> rate_point(const CohesiveLaw<P>& law, const SeriesCompliance<P>& series,

@@ -230,7 +230,7 @@ std::vector<double> piece_areas(const std::vector<Spot>& all, const std::vector<
   // Nearest neighbours only: a crack one particle wide separates.
   const auto groups = components(points, 1.3 * spacing, [&](std::size_t i, std::size_t j) {
     return std::none_of(notches.begin(), notches.end(),
-                        [&](const Notch& n) { return crosses(n, points[i], points[j]); });
+                        [&](const Notch& n) { return crosses(cut_of(n), points[i], points[j]); });
   });
   std::vector<double> areas;
   for (const auto& group : groups) {

@@ -30,14 +30,6 @@ long long steps_to_deflection(const SceneFile& scene, double time_step) {
 
 }  // namespace
 
-std::vector<std::string> doubts(const SceneFile& scene, const Specimen& specimen) {
-  const std::size_t bridges = bridging_bonds(scene, specimen);
-  if (bridges == 0) return {};
-  return {
-      std::to_string(bridges) +
-      " pairs of particles interact across a notch, which is therefore partly closed; give it the width \"narrowest\""};
-}
-
 Estimate estimate(const SceneFile& scene, const Specimen& specimen, int threads) {
   Specimen own = specimen;
   if (threads > 0) own.setup.options.threads = threads;

@@ -195,15 +195,7 @@ std::vector<Point> corners(const Notch& n) {
   return {back - side, n.tip - side, n.tip + side, back + side};
 }
 
-bool crosses(const Notch& n, const Point& p, const Point& q) {
-  const Point d = n.tip - n.mouth;
-  const auto side = [&](const Point& x) { return d[0] * (x[1] - n.mouth[1]) - d[1] * (x[0] - n.mouth[0]); };
-  const double a = side(p), b = side(q);
-  if ((a > 0.0) == (b > 0.0) || a == b) return false;
-  const Point meeting = p + (q - p) * (a / (a - b));
-  const double s = (meeting - n.mouth).dot(d) / d.squaredNorm();
-  return s >= -1e-9 && s <= 1.0 - 1e-9;
-}
+Cut<2> cut_of(const Notch& n) { return {{n.mouth, n.tip}}; }
 
 std::vector<std::vector<Point>> outlines(const Body& body) {
   std::vector<std::vector<Point>> lines = outlines(body.shape);

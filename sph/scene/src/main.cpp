@@ -115,7 +115,6 @@ int check(const Arguments& a) {
   const SceneFile scene = read_scene(a.scene, a.set);
   warn(scene.warnings);
   const Specimen specimen = make_specimen(scene);
-  warn(doubts(scene, specimen));
   std::cout << scene.name << ": the scene is valid\n"
             << estimate_text(scene, specimen, estimate(scene, specimen, a.threads));
   if (!a.pictures) return 0;

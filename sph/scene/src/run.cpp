@@ -301,7 +301,6 @@ class Runner {
     write_crack(paths);
     const Findings f = findings(scene_, record_.history, opened_length(all, scene_.spacing));
     result.warnings = warnings_of(scene_, record_.history, f);
-    for (std::string& doubt : doubts(scene_, specimen_)) result.warnings.push_back(std::move(doubt));
     result.report = report_of(f);
     result.record = record_;
     io::write_text(files_.summary, summary_text({scene_, specimen_, run_, result, f, paths, pieces}), true);

@@ -6,7 +6,6 @@
 #include <thread>
 
 #include "fpz/io/input_error.hpp"
-#include "point_grid.hpp"
 
 namespace fpz::sph {
 namespace {
@@ -35,22 +34,6 @@ Arrangement<2> place(const SceneFile& scene) {
     }
   }
   return a;
-}
-
-/// Whether the engine keeps particles on opposite sides of a cut apart.
-template <class A>
-constexpr bool has_cuts(const A& /*arrangement*/) {
-  return requires(A a) { a.cuts; };
-}
-
-template <class A>
-void pass_cuts(A& a, const std::vector<Notch>& notches) {
-  if constexpr (requires { a.cuts; }) {
-    for (const Notch& n : notches) {
-      const Point behind = n.mouth - (n.width + a.spacing) * along(n);
-      a.cuts.push_back({{behind, n.tip}});
-    }
-  }
 }
 
 std::vector<std::size_t> particles_of(const Site& site, const SceneFile& scene, const Arrangement<2>& a,
@@ -149,25 +132,6 @@ bool is_updated(const Specimen& s) { return s.setup.options.configuration == Con
 
 }  // namespace
 
-std::size_t bridging_bonds(const SceneFile& scene, const Specimen& specimen) {
-  const Arrangement<2>& a = specimen.setup.arrangement;
-  if (scene.body.notches.empty() || has_cuts(a)) return 0;
-  const double reach = kernel_support * scene.options.smoothing_ratio * scene.spacing;
-  const detail::PointGrid grid(a.position, reach);
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    grid.near(a.position[i], reach, [&](std::size_t j) {
-      // A pair that straddles the tip belongs to the material ahead of it.
-      const auto beside = [](const Notch& n, const Point& x) { return (x - n.tip).dot(along(n)) < 0.0; };
-      const auto crossed = [&](const Notch& n) {
-        return beside(n, a.position[i]) && beside(n, a.position[j]) && crosses(n, a.position[i], a.position[j]);
-      };
-      if (i < j && std::any_of(scene.body.notches.begin(), scene.body.notches.end(), crossed)) ++count;
-    });
-  }
-  return count;
-}
-
 Specimen make_specimen(const SceneFile& scene) {
   Specimen s;
   try {
@@ -175,7 +139,7 @@ Specimen make_specimen(const SceneFile& scene) {
   } catch (const std::invalid_argument& e) {
     fail(scene, e.what());
   }
-  pass_cuts(s.setup.arrangement, scene.body.notches);
+  for (const Notch& n : scene.body.notches) s.setup.arrangement.cuts.push_back(cut_of(n));
   const Arrangement<2>& a = s.setup.arrangement;
   for (std::size_t i = 0; i < a.size(); ++i) {
     if (a.group[i] == Arrangement<2>::specimen) s.area += a.volume[i];

@@ -49,15 +49,4 @@ TEST(Geometry, ContainsKnowsNotchesAndHoles) {
   EXPECT_TRUE(contains(b, Point(-0.3, 0.3)));  // beyond the tip
 }
 
-TEST(Geometry, LinesThatCrossANotch) {
-  const Notch n = notch(Point(0, 0), 1.0, 0.0, 0.0);
-  EXPECT_TRUE(crosses(n, Point(-0.5, 0.5), Point(0.5, 0.5)));
-  EXPECT_TRUE(crosses(n, Point(0.5, 0.9), Point(-0.5, 0.2)));
-  EXPECT_FALSE(crosses(n, Point(-0.5, 1.1), Point(0.5, 1.1)));
-  EXPECT_FALSE(crosses(n, Point(0.1, 0.5), Point(0.5, 0.5)));
-  // Through the tip, either way round.
-  EXPECT_FALSE(crosses(n, Point(-0.5, 0.5), Point(0.5, 1.5)));
-  EXPECT_FALSE(crosses(n, Point(0.5, 0.5), Point(-0.5, 1.5)));
-}
-
 }  // namespace

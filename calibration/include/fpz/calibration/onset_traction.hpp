@@ -9,6 +9,14 @@
 
 namespace fpz::calibration {
 
+/// Size of the shear traction on a yield surface (eq 48), Pa, from `radius` = c - sigma_n tan(phi) and its apex:
+/// sqrt(radius^2 - apex^2), without cancellation.
+template <class T>
+[[nodiscard]] T surface_shear(const T& radius, const T& apex) {
+  using std::sqrt;
+  return sqrt((radius - apex) * (radius + apex));
+}
+
 /// The point of the undamaged yield surface (eq 48) met by the traction ray towards (normal, shear) = K.direction, that
 /// is by a zone loaded along its springs; with `angle_deg` by the ray at that angle from the normal instead. Local
 /// frame, Pa; nothing where the ray stays inside the surface (compression within friction).

@@ -4,6 +4,7 @@
 #include <functional>
 #include <vector>
 
+#include "fpz/sph/cut.hpp"
 #include "fpz/types.hpp"
 
 namespace fpz::sph {
@@ -15,6 +16,7 @@ struct Arrangement {
   std::vector<Vec<double, Dim>> position;
   std::vector<double> volume;  ///< m^Dim
   std::vector<int> group;      ///< index of the boundary group, or specimen
+  std::vector<Cut<Dim>> cuts;  ///< no particles interact across these, boundary particles included
 
   static constexpr int specimen = -1;
 

@@ -16,9 +16,6 @@ struct Estimate {
   double mean_neighbours = 0.0;
 };
 
-/// What is doubtful about a specimen before it runs: notches that are bridged.
-[[nodiscard]] std::vector<std::string> doubts(const SceneFile& scene, const Specimen& specimen);
-
 /// Runs the specimen for about half a second.
 [[nodiscard]] Estimate estimate(const SceneFile& scene, const Specimen& specimen, int threads);
 [[nodiscard]] std::string estimate_text(const SceneFile& scene, const Specimen& specimen, const Estimate& e);

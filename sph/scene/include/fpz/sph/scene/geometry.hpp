@@ -5,6 +5,7 @@
 #include <variant>
 #include <vector>
 
+#include "fpz/sph/cut.hpp"
 #include "fpz/types.hpp"
 
 namespace fpz::sph {
@@ -65,8 +66,8 @@ struct Body {
 [[nodiscard]] Point along(const Notch& notch);
 [[nodiscard]] Point across(const Notch& notch);
 
-/// True when the straight line from p to q crosses the centre line of the notch; touching its tip does not count.
-[[nodiscard]] bool crosses(const Notch& notch, const Point& p, const Point& q);
+/// The centre line of the notch.
+[[nodiscard]] Cut<2> cut_of(const Notch& notch);
 
 /// Closed lines for drawing: outer boundary first, then holes and slots.
 [[nodiscard]] std::vector<std::vector<Point>> outlines(const Body& body);

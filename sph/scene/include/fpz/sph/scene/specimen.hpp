@@ -32,10 +32,6 @@ struct Specimen {
 /// Places the particles and binds the gauges. Throws io::InputError naming the scene when something does not fit.
 [[nodiscard]] Specimen make_specimen(const SceneFile& scene);
 
-/// Number of pairs of particles that interact across a notch, which is then partly closed: 0 when the notches are wide
-/// enough, or when the engine knows cuts.
-[[nodiscard]] std::size_t bridging_bonds(const SceneFile& scene, const Specimen& specimen);
-
 /// Particles from a CSV (columns x, y; optional volume, group), .vtu or legacy .vtk file (point data volume, group).
 /// Without volumes all have spacing^2. Group -1 is the specimen, others are indices of boundaries.
 [[nodiscard]] Arrangement<2> read_particles(const std::filesystem::path& file, double spacing);

@@ -7,10 +7,9 @@
 
 namespace fpz::calibration::detail {
 
-/// Four significant digits.
-[[nodiscard]] inline std::string number(double x) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", x);
+[[nodiscard]] inline std::string number(double x, int significant = 4) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.*g", significant, x);
   return text;
 }
 

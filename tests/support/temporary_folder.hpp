@@ -1,22 +1,24 @@
-// Folders and files for the tests of the calibration program.
+// Folders and files that tests write and that go away with them.
 #pragma once
 
-#include <unistd.h>
+#include <stdlib.h>
 
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <system_error>
 
-namespace fpz::calibration::test {
+namespace fpz::test {
 
-/// A folder that is removed with everything in it.
+/// A new folder, removed with everything in it.
 class TemporaryFolder {
  public:
-  explicit TemporaryFolder(const std::string& name)
-      : path_(std::filesystem::temp_directory_path() / ("fpz-" + name + '-' + std::to_string(::getpid()))) {
-    std::filesystem::remove_all(path_);
-    std::filesystem::create_directories(path_);
+  TemporaryFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "fpz-test-XXXXXX").string();
+    const char* made = ::mkdtemp(name.data());
+    if (made == nullptr) throw std::filesystem::filesystem_error("cannot make a folder", name, std::error_code());
+    path_ = made;
   }
   ~TemporaryFolder() {
     std::error_code ignored;
@@ -41,4 +43,4 @@ inline std::string text_of(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
-}  // namespace fpz::calibration::test
+}  // namespace fpz::test
