@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Sets up, builds, runs the validation sweeps of the particle method (data/validation) and writes docs/validation.md with
-# its pictures. Takes about an hour on two cores. Can be stopped (Ctrl-C) and started again: finished runs are kept,
+# its pictures. Takes about 40 minutes on two free cores. Can be stopped (Ctrl-C) and started again: finished runs are kept,
 # interrupted ones go on. The report says what has not been run; with --report it is written from what there is.
 #   scripts/run_validation.sh [--report] [OUTDIR]     (OUTDIR: build/validation)
 set -euo pipefail
