@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <iostream>
@@ -13,6 +14,7 @@
 #include "fpz/sph/scene/estimate.hpp"
 #include "fpz/sph/scene/pictures.hpp"
 #include "fpz/sph/scene/run.hpp"
+#include "fpz/sph/scene/sweep.hpp"
 
 namespace {
 
@@ -44,19 +46,40 @@ class ProgressLine {
   ProgressLine& operator=(const ProgressLine&) = delete;
 
   void show(const Progress& p) {
-    const auto now = std::chrono::steady_clock::now();
-    if (!active_ || now - last_ < std::chrono::milliseconds(250)) return;
+    if (!due()) return;
     if (!shown_) first_fraction_ = p.fraction, first_seconds_ = p.seconds;
-    last_ = now;
-    shown_ = true;
     const double done = p.fraction - first_fraction_;
     const double left = done > 0.0 ? (p.seconds - first_seconds_) * (1.0 - p.fraction) / done : 0.0;
-    std::fprintf(stderr, "\r\033[K%5.1f %%  load %.4g N, %zu damaged, %.0f steps/s, %s elapsed, at most %s remaining",
-                 100.0 * p.fraction, p.load, p.damaged, p.steps_per_second, clock_text(p.seconds).c_str(),
-                 clock_text(left).c_str());
+    char text[200];
+    std::snprintf(text, sizeof text,
+                  "%5.1f %%  load %.4g N, %zu damaged, %.0f steps/s, %s elapsed, at most %s remaining",
+                  100.0 * p.fraction, p.load, p.damaged, p.steps_per_second, clock_text(p.seconds).c_str(),
+                  clock_text(left).c_str());
+    write(text);
+  }
+
+  void show(const SweepProgress& p) {
+    if (!due()) return;
+    char text[200];
+    std::snprintf(text, sizeof text, "%zu of %zu runs done, %zu running, %s elapsed, about %s remaining", p.done, p.all,
+                  p.running, clock_text(p.seconds).c_str(),
+                  std::isnan(p.remaining) ? "?" : clock_text(p.remaining).c_str());
+    write(text);
   }
 
  private:
+  [[nodiscard]] bool due() {
+    const auto now = std::chrono::steady_clock::now();
+    if (!active_ || now - last_ < std::chrono::milliseconds(250)) return false;
+    last_ = now;
+    return true;
+  }
+
+  void write(const char* text) {
+    shown_ = true;
+    std::fprintf(stderr, "\r\033[K%s", text);
+  }
+
   bool active_;
   bool shown_ = false;
   double first_fraction_ = 0.0, first_seconds_ = 0.0;
@@ -67,7 +90,7 @@ struct Arguments {
   std::string scene, out;
   Overrides set;
   bool force = false, resume = false, pictures = true;
-  int threads = 0;
+  int threads = 0, jobs = 0;
   long long steps = 0;
 };
 
@@ -124,6 +147,45 @@ int check(const Arguments& a) {
   return 0;
 }
 
+int sweep(const Arguments& a) {
+  const Sweep sweep = read_sweep(a.scene, a.set);
+  SweepRequest request;
+  request.folder = a.out;
+  request.jobs = a.jobs;
+  request.force = a.force;
+  request.pictures = a.pictures;
+  request.interrupt = &interrupted;
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
+  SweepResult result;
+  {
+    ProgressLine line;
+    request.progress = [&](const SweepProgress& p) { line.show(p); };
+    result = run_sweep(sweep, request);
+  }
+  std::size_t kept = 0, with_warnings = 0;
+  for (std::size_t k = 0; k < result.rows.size(); ++k) {
+    const SweepRow& row = result.rows[k];
+    kept += row.kept ? 1U : 0U;
+    with_warnings += row.figures.back() > 0.0 ? 1U : 0U;
+    if (row.reason.empty()) continue;
+    std::cerr << (row.status == RunStatus::failed ? "FAILED: " : "warning: ")
+              << (fs::path(a.out) / sweep.runs[k].folder).string() << ": " << row.reason << "\n";
+  }
+  const std::size_t failed = result.count(RunStatus::failed), finished = result.count(RunStatus::finished);
+  std::cout << sweep.name << ": " << finished << " of " << sweep.runs.size() << " runs finished (" << kept
+            << " were there already), " << failed << " failed\n  " << (fs::path(a.out) / "sweep.csv").string() << "\n";
+  if (with_warnings > 0) {
+    std::cout << "  " << with_warnings << " runs have warnings: see \"warnings\" in their summary.json\n";
+  }
+  report_pictures(result.pictures, a.out);
+  if (finished + failed < sweep.runs.size()) {
+    std::cout << "  interrupted; the same command goes on\n";
+    return 3;
+  }
+  return failed > 0 ? 1 : 0;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) try {
@@ -137,7 +199,8 @@ int main(int argc, char** argv) try {
       "  fpz-sph data/scenes/beam_3pb.json -o out/beam --resume       after Ctrl-C or a crash\n"
       "  fpz-sph check data/scenes/ring.json --set shape.diameter_ratio=0.5\n"
       "  fpz-sph plot out/beam\n"
-      "Scenes are described in docs/scenes.md.\n"
+      "  fpz-sph sweep data/sweeps/scb_angles.json -o out/angles\n"
+      "Scenes and sweeps are described in docs/scenes.md.\n"
       "Exit status: 0 success; 1 the run failed; 2 bad usage or input, or unwritable files; 3 interrupted, resumable.");
   Arguments a;
   const auto common = [&](CLI::App& c) {
@@ -157,6 +220,23 @@ int main(int argc, char** argv) try {
   common(*check_command);
   check_command->footer("Example:\n  fpz-sph check data/scenes/scb.json -o out/check --set notches[0].angle_deg=45");
 
+  CLI::App* sweep_command = app.add_subcommand("sweep", "Run a scene many times with entries changed");
+  sweep_command->add_option("SWEEP.json", a.scene, "sweep file");
+  sweep_command->add_option("-o,--out", a.out, "output folder");
+  sweep_command->add_option("--set", a.set, "path=value: override an entry of every scene (may be repeated)")
+      ->take_all();
+  sweep_command->add_option("--jobs", a.jobs, "runs at the same time, one thread each; default: one per core")
+      ->check(CLI::PositiveNumber);
+  sweep_command->add_flag("--force", a.force, "replace runs of other scenes and repeat failed ones");
+  sweep_command->add_flag("!--no-pictures", a.pictures, "draw nothing");
+  sweep_command->footer(
+      "Every run has a folder OUTDIR/<series>/<value>; sweep.csv has one row per run. The same command again goes on\n"
+      "where an interrupted sweep was, and repeats nothing that is done.\n"
+      "Examples:\n"
+      "  fpz-sph sweep data/sweeps/scb_angles.json -o out/angles\n"
+      "  fpz-sph sweep data/sweeps/ring_diameters.json -o out/coarse --set spacing=0.001 --jobs 4\n"
+      "Exit status: 0 all runs finished; 1 some failed; 2 bad usage or input, or unwritable files; 3 interrupted.");
+
   std::string folder;
   CLI::App* plot_command = app.add_subcommand("plot", "Draw the pictures of a run again");
   plot_command->add_option("OUTDIR", folder, "folder of a run")->required();
@@ -169,12 +249,13 @@ int main(int argc, char** argv) try {
       report_pictures(pictures, folder);
       return 0;
     }
-    if (a.scene.empty()) throw CLI::RequiredError("SCENE.json");
+    if (a.scene.empty()) throw CLI::RequiredError(*sweep_command ? "SWEEP.json" : "SCENE.json");
     if (!*check_command && a.out.empty()) throw CLI::RequiredError("--out");
     if (a.force && a.resume) throw CLI::ValidationError("--force and --resume exclude each other");
   } catch (const CLI::ParseError& e) {
     return app.exit(e) == 0 ? 0 : 2;
   }
+  if (*sweep_command) return sweep(a);
   return *check_command ? check(a) : run(a);
 } catch (const std::exception& e) {
   std::cerr << "fpz-sph: " << e.what() << "\n";

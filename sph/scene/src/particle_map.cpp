@@ -8,7 +8,6 @@ namespace {
 
 constexpr double mm = 1e3;
 constexpr double pixels_per_pointsize = 6.0;  // a square of gnuplot's cairo terminals at pointsize 1
-constexpr double width = 1000.0;              // of the picture, pixels
 constexpr double side = 70.0, top = 36.0, bottom = 30.0, foot = 70.0;
 
 struct Box {
@@ -35,7 +34,9 @@ io::Picture map_picture(const std::string& name, const std::vector<ParticleMap>&
   const Box box = box_of(maps, 1.5 * size);
   const Point extent = box.high - box.low;
   const bool wide = extent[0] > 2.0 * extent[1] || maps.size() == 1;
-  const int columns = wide ? 1 : 2;
+  const bool many = maps.size() > 6;
+  const int columns = wide ? (many ? 2 : 1) : (many ? 4 : 2);
+  const double width = columns > 2 ? 1600.0 : 1000.0;  // of the picture, pixels
   const int rows = (static_cast<int>(maps.size()) + columns - 1) / columns;
   const double scale = ((width - side * columns - 20.0) / columns) / extent[0];  // pixels per metre
   const double panel_width = extent[0] * scale, panel_height = extent[1] * scale;

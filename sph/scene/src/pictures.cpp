@@ -2,51 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "fpz/io/csv.hpp"
-#include "fpz/io/gnuplot.hpp"
 #include "fpz/io/input_error.hpp"
 #include "fpz/io/output.hpp"
-#include "fpz/io/picture.hpp"
 #include "fpz/sph/scene/run.hpp"
-#include "particle_map.hpp"
+#include "picture_parts.hpp"
 
 namespace fpz::sph {
 namespace {
 
 namespace fs = std::filesystem;
-using detail::ColourClass;
-using detail::ParticleMap;
+using namespace detail;
 using io::Panel;
 using io::Picture;
 using io::Series;
-
-constexpr const char* blue = "#1F5FA8";
-constexpr const char* red = "#C0392B";
-constexpr const char* green = "#2E8B57";
-constexpr const char* grey = "#808080";
-
-std::string line(const char* colour, const char* dash = "") {
-  return "lines lw 2 lc rgb '" + std::string(colour) + "' " + dash;
-}
-
-std::string text_of(double x, int digits = 3) {
-  std::ostringstream s;
-  s.precision(digits);
-  s << x;
-  return s.str();
-}
-
-/// A name as gnuplot shows it: an underscore is no subscript.
-std::string plain(const std::string& name) {
-  std::string text;
-  for (const char c : name) {
-    if (std::string_view("_^{}@&~\\").find(c) != std::string_view::npos) text += '\\';
-    text += c;
-  }
-  return text;
-}
 
 Series curve(const io::Table& t, const char* x, double x_scale, const std::string& y, double y_scale,
              const std::string& title, const std::string& style) {
@@ -61,13 +31,6 @@ Series curve(const io::Table& t, const char* x, double x_scale, const std::strin
 
 void drop_empty(std::vector<Series>& series) {
   std::erase_if(series, [](const Series& s) { return s.points.empty(); });
-}
-
-Picture with_legend(const std::string& name, const Panel& panel, int columns) {
-  Picture picture(name, 760, 520);
-  picture.legend(panel.series, {0.1, 0.95, 0.0, 0.09}, columns);
-  picture.panel(panel, {0.12, 0.95, 0.21, 0.92});
-  return picture;
 }
 
 Picture load_deflection(const io::Table& t, const std::string& title) {
@@ -116,37 +79,6 @@ std::size_t row_at(const io::Table& t, double part) {
   return load.size() - 1;
 }
 
-std::vector<Point> positions(const PointCloud& cloud) {
-  std::vector<Point> at;
-  for (std::size_t i = 0; i < cloud.size(); ++i) at.emplace_back(cloud.points[3 * i], cloud.points[3 * i + 1]);
-  return at;
-}
-
-const PointData& field(const PointCloud& cloud, const char* name) {
-  const PointData* d = cloud.find(name);
-  if (d == nullptr) throw io::InputError(std::string("a frame has no field \"") + name + "\"");
-  return *d;
-}
-
-const std::vector<ColourClass>& damage_classes() {
-  static const std::vector<ColourClass> classes = {
-      {"boundary", "#9FB3C8"}, {"D = 0", "#E4E4E0"},  {"to 0.25", "#F7D774"},  {"to 0.5", "#F2A541"},
-      {"to 0.75", "#E0662B"},  {"to 0.9", "#B3261E"}, {"above 0.9", "#5C0A12"}};
-  return classes;
-}
-
-ParticleMap damage_map(const PointCloud& cloud, std::string title) {
-  ParticleMap map{std::move(title), positions(cloud), {}, {}};
-  const auto& damage = field(cloud, "damage").values;
-  const auto& group = field(cloud, "group").values;
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const double d = damage[i];
-    const std::size_t k = d <= 0.0 ? 1 : d <= 0.25 ? 2 : d <= 0.5 ? 3 : d <= 0.75 ? 4 : d <= 0.9 ? 5 : 6;
-    map.colour.push_back(group[i] >= 0.0 ? 0 : k);
-  }
-  return map;
-}
-
 /// Frames nearest to the wanted moments, each once.
 std::vector<ParticleMap> damage_maps(const fs::path& folder, const std::vector<Frame>& frames, const io::Table& t,
                                      const std::vector<double>& parts) {
@@ -192,24 +124,7 @@ Picture velocity_map(const PointCloud& cloud, double size) {
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     map.colour.push_back(static_cast<std::size_t>(std::lround(std::clamp(v[3 * i] / scale, -1.0, 1.0) * 4.0) + 4));
   }
-  return detail::map_picture("velocity", {map}, classes, size, 9);
-}
-
-void write(const std::vector<Picture>& pictures, const fs::path& folder, bool force, PictureOutcome& outcome) {
-  for (const Picture& p : pictures) {
-    try {
-      p.write(folder, force);
-      for (const fs::path& f : p.files(folder)) outcome.files.push_back(f);
-    } catch (const io::OutputError& e) {
-      outcome.warnings.emplace_back(e.what());
-    }
-  }
-}
-
-bool without_gnuplot(PictureOutcome& outcome) {
-  if (io::gnuplot_is_installed()) return false;
-  outcome.warnings.emplace_back("no pictures: gnuplot is not installed (apt-get install gnuplot-nox)");
-  return true;
+  return map_picture("velocity", {map}, classes, size, 9);
 }
 
 void require_free(const std::vector<Picture>& pictures, const fs::path& folder, bool force) {
@@ -234,21 +149,21 @@ PictureOutcome draw_run(const fs::path& folder, bool force) {
   const io::Table t = io::read_csv(files.history);
   const SceneFile scene = read_scene(files.scene);
   const std::vector<Frame> frames = read_pvd(folder / "frames.pvd");
-  if (without_gnuplot(outcome)) return outcome;
+  if (gnuplot_missing(outcome)) return outcome;
   std::vector<Picture> pictures = {load_deflection(t, plain(scene.name)), energies(t, plain(scene.name))};
   if (!frames.empty()) {
     const auto maps = damage_maps(folder, frames, t, scene.output.picture_loads);
-    if (!maps.empty()) pictures.push_back(detail::map_picture("damage", maps, damage_classes(), scene.spacing, 7));
+    if (!maps.empty()) pictures.push_back(map_picture("damage", maps, damage_classes(), scene.spacing, 7));
     pictures.push_back(velocity_map(read_vtk(folder / frames.back().file), scene.spacing));
   }
   require_free(pictures, folder, force);
-  write(pictures, folder, force, outcome);
+  write_pictures(pictures, folder, force, outcome);
   return outcome;
 }
 
 PictureOutcome draw_scene(const SceneFile& scene, const Specimen& specimen, const fs::path& folder, bool force) {
   PictureOutcome outcome;
-  if (without_gnuplot(outcome)) return outcome;
+  if (gnuplot_missing(outcome)) return outcome;
   const char* colours[] = {"#C0392B", "#1F5FA8", "#2E8B57", "#D68910", "#8E44AD", "#16A0A0"};
   std::vector<ColourClass> classes = {{"specimen", "#D8D8D2"}};
   for (std::size_t b = 0; b < scene.boundaries.size(); ++b)
@@ -266,9 +181,9 @@ PictureOutcome draw_scene(const SceneFile& scene, const Specimen& specimen, cons
     }
   }
   map.lines.push_back(outline(gauges, "points pt 7 ps 0.5 lc rgb '#202020'"));
-  const std::vector<Picture> pictures = {detail::map_picture("scene", {map}, classes, 0.8 * scene.spacing, 8)};
+  const std::vector<Picture> pictures = {map_picture("scene", {map}, classes, 0.8 * scene.spacing, 8)};
   require_free(pictures, folder, force);
-  write(pictures, folder, force, outcome);
+  write_pictures(pictures, folder, force, outcome);
   return outcome;
 }
 

@@ -6,6 +6,25 @@ namespace fpz::sph::detail {
 
 using Kind = JsonValue::Kind;
 
+JsonValue* member(JsonValue& object, std::string_view key) {
+  for (JsonValue& m : object.items) {
+    if (m.key == key) return &m;
+  }
+  return nullptr;
+}
+
+std::optional<NamedTree> load_tree(const InputReader& r, const Place& place, const char* what) {
+  const std::filesystem::path file = std::filesystem::path(r.file()).parent_path() / place.value().text;
+  NamedTree tree{{}, file.lexically_normal().string(), file.stem().string()};
+  std::string text, error;
+  if (!io::load_text(file, io::FileKind::regular, r.limits(), text, error)) {
+    r.problem(place, "cannot read " + std::string(what) + " " + io::in_quotes(tree.shown_as) + ": " + error);
+    return std::nullopt;
+  }
+  if (!io::parse_json(text, tree.shown_as, r.limits(), r.problems(), tree.root)) return std::nullopt;
+  return tree;
+}
+
 std::optional<std::size_t> choice(const InputReader& r, const Place& place, std::span<const std::string_view> valid) {
   const auto name = r.text(place, longest_name);
   if (!name) return std::nullopt;

@@ -93,16 +93,6 @@ Notch read_notch(const InputReader& r, const Place& place, double narrowest) {
   return n;
 }
 
-/// The notch that `place` names by its index.
-const Notch* notch_at(const InputReader& r, const Place& place, const SceneFile& scene) {
-  if (scene.body.notches.empty()) {
-    r.problem(place, "there is no notch");
-    return nullptr;
-  }
-  const auto k = r.integer(place, 0, static_cast<int>(scene.body.notches.size()) - 1);
-  return k ? &scene.body.notches[static_cast<std::size_t>(*k)] : nullptr;
-}
-
 Point default_origin(const Shape& shape) {
   if (const auto* d = std::get_if<Disc>(&shape)) return d->centre;
   if (const auto* h = std::get_if<HalfDisc>(&shape)) return h->centre;
@@ -136,6 +126,15 @@ void read_lattice(const InputReader& r, const Place& place, SceneFile& scene) {
 }
 
 }  // namespace
+
+const Notch* notch_at(const InputReader& r, const Place& place, const SceneFile& scene) {
+  if (scene.body.notches.empty()) {
+    r.problem(place, "there is no notch");
+    return nullptr;
+  }
+  const auto k = r.integer(place, 0, static_cast<int>(scene.body.notches.size()) - 1);
+  return k ? &scene.body.notches[static_cast<std::size_t>(*k)] : nullptr;
+}
 
 void read_body(const InputReader& r, const Place& root, SceneFile& scene) {
   with(root, "shape", [&](const Place& p) {

@@ -9,13 +9,13 @@ namespace {
 using namespace detail;
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 16> root_keys = {
-    "name",  "description", "source",      "material", "setting",    "thickness", "spacing", "shape",
-    "holes", "notches",     "arrangement", "method",   "boundaries", "gauges",    "stop",    "output"};
+constexpr std::array<std::string_view, 17> root_keys = {
+    "name",    "description", "source", "material",   "setting", "thickness", "spacing", "shape", "holes",
+    "notches", "arrangement", "method", "boundaries", "gauges",  "toughness", "stop",    "output"};
 constexpr std::array<std::string_view, 2> settings = {"plane_strain", "plane_stress"};
 
 /// The material, and the file's content in place of its name.
-std::optional<io::Material> read_material_of(const InputReader& r, JsonValue& root, io::Problems& problems) {
+std::optional<io::Material> read_material_of(const InputReader& r, JsonValue& root) {
   const Place top(root);
   const JsonValue* given = r.required(top, "material");
   if (given == nullptr) return std::nullopt;
@@ -26,20 +26,12 @@ std::optional<io::Material> read_material_of(const InputReader& r, JsonValue& ro
               "expected an object with the parameters or the name of a material file, found " + given->description());
     return std::nullopt;
   }
-  const fs::path file = fs::path(r.file()).parent_path() / given->text;
-  const std::string shown_as = file.lexically_normal().string();
-  std::string text, error;
-  if (!io::load_text(file, io::FileKind::regular, r.limits(), text, error)) {
-    r.problem(place, "cannot read material file " + io::in_quotes(shown_as) + ": " + error);
-    return std::nullopt;
-  }
-  JsonValue tree;
-  if (!io::parse_json(text, shown_as, r.limits(), problems, tree)) return std::nullopt;
-  auto material = io::read_material(InputReader(shown_as, r.limits(), problems), Place(tree), file.stem().string());
-  std::string key = given->key;
-  for (JsonValue& member : root.items) {
-    if (member.key == "material") member = std::move(tree), member.key = key;
-  }
+  auto file = load_tree(r, place, "material file");
+  if (!file) return std::nullopt;
+  auto material =
+      io::read_material(InputReader(file->shown_as, r.limits(), r.problems()), Place(file->root), file->stem);
+  file->root.key = given->key;
+  *member(root, "material") = std::move(file->root);
   return material;
 }
 
@@ -79,13 +71,14 @@ SceneFile read_tree(JsonValue& root, const std::string& origin, const io::ReadLi
     r.known_keys(top, root_keys);
     read_header(r, top, scene);
   }
-  const auto material = read_material_of(r, root, problems);
+  const auto material = read_material_of(r, root);
   const Place top(root);
   with(top, "method", [&](const Place& p) { read_method(r, p, scene.options); });
   read_body(r, top, scene);
   read_arrangement(r, top, scene);
   with_required(r, top, "boundaries", [&](const Place& p) { read_boundaries(r, p, scene); });
   with_required(r, top, "gauges", [&](const Place& p) { read_gauges(r, p, scene); });
+  read_toughness(r, root, scene);
   with_required(r, top, "stop", [&](const Place& p) { read_stop(r, p, scene.stop); });
   with(top, "output", [&](const Place& p) { read_output(r, p, scene.output); });
   if (material) {

@@ -27,6 +27,18 @@ void with_required(const InputReader& r, const Place& object, std::string_view k
   if (const JsonValue* v = r.required(object, key)) f(Place(object, *v));
 }
 
+/// The member of an object that may be changed, or null.
+[[nodiscard]] JsonValue* member(JsonValue& object, std::string_view key);
+
+/// A JSON file that a value names, relative to the file that is read.
+struct NamedTree {
+  JsonValue root;
+  std::string shown_as;  ///< its name in messages
+  std::string stem;
+};
+/// `what` is what it should be ("material file"); a file that cannot be read is a problem.
+[[nodiscard]] std::optional<NamedTree> load_tree(const InputReader& r, const Place& place, const char* what);
+
 /// Index of a string among the valid names.
 [[nodiscard]] std::optional<std::size_t> choice(const InputReader& r, const Place& place,
                                                 std::span<const std::string_view> valid);
@@ -36,11 +48,16 @@ void with_required(const InputReader& r, const Place& object, std::string_view k
 [[nodiscard]] std::optional<Point> direction(const InputReader& r, const Place& place);
 [[nodiscard]] std::optional<double> not_negative(const InputReader& r, const Place& place);
 
+/// The notch that `place` names by its index.
+[[nodiscard]] const Notch* notch_at(const InputReader& r, const Place& place, const SceneFile& scene);
+
 void read_body(const InputReader& r, const Place& root, SceneFile& scene);
 void read_arrangement(const InputReader& r, const Place& root, SceneFile& scene);
 void read_boundaries(const InputReader& r, const Place& place, SceneFile& scene);
 void read_method(const InputReader& r, const Place& place, Options<2>& options);
 void read_gauges(const InputReader& r, const Place& place, SceneFile& scene);
+/// After the body and the boundaries. The content of a file with factors takes the place of its name in `root`.
+void read_toughness(const InputReader& r, JsonValue& root, SceneFile& scene);
 void read_stop(const InputReader& r, const Place& place, StopRules& stop);
 void read_output(const InputReader& r, const Place& place, OutputRules& output);
 

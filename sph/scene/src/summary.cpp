@@ -73,6 +73,7 @@ Findings findings(const SceneFile& scene, const History& h, double opened) {
   f.peak_load = h.at(peak, "load");
   f.deflection_at_peak = h.at(peak, "deflection");
   f.stiffness = slope(h, peak);
+  if (scene.toughness) f.toughness = stress_intensity(*scene.toughness, scene.thickness, f.peak_load);
   f.fracture_energy_ratio = f.crack_area > 0.0 ? h.last("energy_fracture") / (f.crack_area * f.fracture_energy) : nan;
   const bool has_support = scene.gauges.contains("support");
   f.imbalance = has_support ? 0.0 : nan;
@@ -94,6 +95,9 @@ Findings findings(const SceneFile& scene, const History& h, double opened) {
 
 std::vector<std::string> warnings_of(const SceneFile& scene, const History& h, const Findings& f) {
   std::vector<std::string> list;
+  if (h.rows() > 1 && peak_row(h) + 1 == h.rows()) {
+    list.push_back("the load was still rising at the end: the peak load is not reached");
+  }
   if (f.kinetic_ratio > 0.02) {
     list.push_back("not quasi-static: kinetic energy reaches " + percent(f.kinetic_ratio) +
                    " of the internal energy before the peak; load more slowly or with a longer ramp");
@@ -130,8 +134,9 @@ std::string report_of(const Findings& f) {
   s << "  peak load " << f.peak_load << " N at " << 1e6 * f.deflection_at_peak << " um, stiffness " << f.stiffness
     << " N/m\n"
     << "  dissipated over crack area times G: " << f.fracture_energy_ratio << " (crack area " << 1e6 * f.crack_area
-    << " mm^2)\n"
-    << "  kinetic over internal energy " << percent(f.kinetic_ratio) << " before the peak, "
+    << " mm^2)\n";
+  if (f.toughness) s << "  toughness K_I " << f.toughness->K_I << ", K_II " << f.toughness->K_II << " Pa sqrt(m)\n";
+  s << "  kinetic over internal energy " << percent(f.kinetic_ratio) << " before the peak, "
     << percent(f.kinetic_ratio_after) << " after; balance error " << percent(f.balance_error) << "\n";
   return s.str();
 }
@@ -153,6 +158,8 @@ std::string summary_text(const SummaryInput& in) {
   j["stiffness"] = number(f.stiffness);
   j["fracture_energy_ratio"] = number(f.fracture_energy_ratio);
   j["crack_area"] = number(f.crack_area);
+  j["toughness_K_I"] = f.toughness ? number(f.toughness->K_I) : Json(nullptr);
+  j["toughness_K_II"] = f.toughness ? number(f.toughness->K_II) : Json(nullptr);
   j["fracture_energy_G"] = f.fracture_energy;
   Json cracks = Json::array();
   for (const CrackPath& path : in.paths) {

@@ -76,6 +76,25 @@ if(found EQUAL -1 OR NOT EXISTS "${WORK}/terminated/checkpoint.bin")
   message(SEND_ERROR "SIGTERM: no checkpoint, or not said: ${out}")
 endif()
 
+# A sweep: twice, because the second time nothing is left to do; its pictures; a failed run shows in the exit status.
+file(WRITE "${WORK}/sweep.json" "{\"scene\": \"${beam}\", \"parameter\": {\"name\": \"speed\", \"path\":
+  \"boundaries[0].velocity.y.speed\", \"values\": [-0.05, -0.1]},
+  \"set\": {\"output.pictures\": false}}")
+expect(0 "2 of 2 runs finished (0 were" sweep "${WORK}/sweep.json" -o "${WORK}/sweep" ${quick})
+expect(0 "2 of 2 runs finished (2 were" sweep "${WORK}/sweep.json" -o "${WORK}/sweep" ${quick} --no-pictures --jobs 1)
+foreach(file sweep.csv peak_load.png load_deflection_runs.svg damage_runs.png runs/-0.05/summary.json)
+  if(NOT EXISTS "${WORK}/sweep/${file}")
+    message(SEND_ERROR "${file} of the sweep is missing")
+  endif()
+endforeach()
+file(READ "${WORK}/sweep.json" sweep)
+string(REPLACE "-0.1" "-1e9" sweep "${sweep}")
+file(WRITE "${WORK}/failing.json" "${sweep}")
+expect(1 "FAILED" sweep "${WORK}/failing.json" -o "${WORK}/failing" ${quick} --no-pictures)
+expect(2 "of other scenes" sweep "${WORK}/sweep.json" -o "${WORK}/sweep" ${quick} --set spacing=0.01)
+expect(2 "varies that entry" sweep "${WORK}/sweep.json" -o "${WORK}/x" --set boundaries[0].velocity.y.speed=1)
+expect(0 "Examples:" sweep --help)
+
 # A file where the folder should be.
 file(WRITE "${WORK}/file" "")
 expect(2 "" "${beam}" -o "${WORK}/file" ${quick})

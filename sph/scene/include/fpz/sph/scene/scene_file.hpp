@@ -14,6 +14,7 @@
 #include "fpz/sph/group.hpp"
 #include "fpz/sph/options.hpp"
 #include "fpz/sph/scene/placing.hpp"
+#include "fpz/sph/scene/toughness.hpp"
 
 namespace fpz::sph {
 
@@ -89,6 +90,7 @@ struct SceneFile {
   std::vector<Boundary> boundaries;
   Options<2> options;
   std::map<std::string, Gauge> gauges;  ///< "load" and "deflection" are always there
+  std::optional<SemicircularBending> toughness;
   StopRules stop;
   OutputRules output;
 

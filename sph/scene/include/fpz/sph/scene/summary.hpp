@@ -1,6 +1,7 @@
 // The figures that sum up a run.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@ struct Findings {
   double crack_area = 0.0;             ///< opened_length() times thickness, m^2
   double fracture_energy_ratio = 0.0;  ///< dissipated by fracture over crack_area times G
   double fracture_energy = 0.0;        ///< G = tensile_strength delta0, J/m^2
+  std::optional<StressIntensity> toughness;  ///< at the peak load; none where the scene does not say how
   double kinetic_ratio = 0.0;        ///< largest kinetic over (elastic + fracture) energy between half the peak and it
   double kinetic_ratio_after = 0.0;  ///< the same after the peak
   double imbalance = 0.0;            ///< largest |load - support| over the peak, between half the peak and it
