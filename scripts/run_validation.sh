@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Sets up, builds, runs the validation sweeps of the particle method (data/validation) and writes docs/validation.md with
-# its pictures. Takes about 40 minutes on two free cores. Can be stopped (Ctrl-C) and started again: finished runs are kept,
-# interrupted ones go on. The report says what has not been run; with --report it is written from what there is.
+# its pictures. Takes about 40 minutes on two free cores. Can be stopped (Ctrl-C) and started again: finished runs are
+# kept, interrupted ones go on. The report says what has not been run; --report writes it from what there is.
 #   scripts/run_validation.sh [--report] [OUTDIR]     (OUTDIR: build/validation)
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
