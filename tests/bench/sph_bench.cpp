@@ -1,13 +1,17 @@
 // fpz-sph-bench: particle-steps per second of an elastic 2-D specimen (140 x 50 particles, cubic spline, h = 1.2 dx) on
 // one core and on all, for both configurations and every compiled version of the inner loops; the best of several
-// rounds. When LAMMPS (`lmp`) is on the PATH, the ratio to its bond-based peridynamics on the same specimen.
+// rounds. With --threads instead: 1, 2, ... threads on specimens of several sizes, round by round in turn. When LAMMPS
+// (`lmp`) is on the PATH, the ratio to its bond-based peridynamics on the same specimen.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <string>
+#include <thread>
+#include <vector>
 
 #include "fpz/sph/simulation.hpp"
 
@@ -22,21 +26,22 @@ constexpr double spacing = 1e-3;
 double seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 /// A bar pulled slowly at one end, far below its strength.
-Scene<2> specimen(const Options<2>& options) {
+/// `scale` times as long and as high.
+Scene<2> specimen(const Options<2>& options, int scale = 1) {
   Scene<2> s;
   s.options = options;
   s.parameters = {45e9, 0.24, 2400.0, 2.9e6, 5e6, 37.0, 5.0, 16.4e-6, 1e14, 1e11, 2e-3};
   s.arrangement.spacing = spacing;
   fpz::Vec<double, 2> low, high;
   low << 0.0, 0.0;
-  high << columns * spacing, rows * spacing;
+  high << scale * columns * spacing, scale * rows * spacing;
   add_lattice<2>(s.arrangement, low, high);
   Group<2> left{"left", {Motion{0.0, 0.0}, Motion{0.0, 0.0}}, true};
   Group<2> right{"right", {Motion{1e-3, 1e-4}, std::nullopt}, true};
   s.groups = {left, right};
   for (std::size_t i = 0; i < s.arrangement.size(); ++i) {
     if (s.arrangement.position[i][0] < 3.0 * spacing) s.arrangement.group[i] = 0;
-    if (s.arrangement.position[i][0] > (columns - 3) * spacing) s.arrangement.group[i] = 1;
+    if (s.arrangement.position[i][0] > (scale * columns - 3) * spacing) s.arrangement.group[i] = 1;
   }
   return s;
 }
@@ -56,6 +61,41 @@ double rate(const Options<2>& options, int rounds, int steps) {
     best = std::max(best, columns * rows * steps / (seconds() - begin));
   }
   return best;
+}
+
+/// How the steps of larger specimens gain from threads. The numbers of threads take turns, so that other programs on
+/// the machine slow all of them down alike; the best round of each counts. False after a failure.
+bool thread_scaling(int rounds, long particle_steps) {
+  const int most = std::max(2, static_cast<int>(std::thread::hardware_concurrency()));
+  std::printf("particles  threads  million particle-steps per second  over one thread\n");
+  for (const int scale : {1, 2, 4, 8}) {
+    const int count = columns * rows * scale * scale;
+    const int steps = std::max(2, static_cast<int>(particle_steps / count));
+    std::vector<std::unique_ptr<Simulation<2>>> runs;
+    for (int n = 1; n <= most; ++n) {
+      Options<2> o;
+      o.threads = n;
+      runs.push_back(std::make_unique<Simulation<2>>(specimen(o, scale)));
+    }
+    std::vector<double> best(runs.size(), 0.0);
+    for (int r = 0; r < rounds; ++r) {
+      for (std::size_t n = 0; n < runs.size(); ++n) {
+        const double begin = seconds();
+        for (int k = 0; k < steps; ++k) {
+          if (const Outcome o = runs[n]->step(); !o.ok()) {
+            std::puts(o.message().c_str());
+            return false;
+          }
+        }
+        best[n] = std::max(best[n], static_cast<double>(count) * steps / (seconds() - begin));
+      }
+    }
+    for (std::size_t n = 0; n < best.size(); ++n) {
+      std::printf("%9d  %7zu  %33.2f  %15.2f\n", count, n + 1, best[n] * 1e-6, best[n] / best[0]);
+    }
+    std::fflush(stdout);
+  }
+  return true;
 }
 
 /// Bond-based peridynamics of LAMMPS on the same lattice (thickness one spacing, horizon 2.4 spacings): particle-steps
@@ -112,6 +152,7 @@ const char* name(InstructionSet i) {
 
 int main(int argc, char** argv) {
   const bool quick = argc > 1 && std::string(argv[1]) == "--quick";
+  if (argc > 1 && std::string(argv[1]) == "--threads") return thread_scaling(10, 500'000) ? 0 : 1;
   const int rounds = quick ? 1 : 12;
   const int steps = quick ? 10 : 200;
   std::printf("million particle-steps per second, %d particles\n%-12s %-9s %-8s %8s\n", columns * rows, "", "momentum",

@@ -1,0 +1,38 @@
+// What finite elements say about a notched specimen with a straight crack in pure mode I (fpz::calibration), and how
+// far a run is off.
+#pragma once
+
+#include "fpz/calibration/notched_specimen.hpp"
+#include "results.hpp"
+
+namespace fpz::sph::report {
+
+struct Reference {
+  calibration::FractureCurve curve;
+  double peak = 0.0;       ///< N
+  double stiffness = 0.0;  ///< slope of the load over the mid-depth deflection between 10 and 40 % of the peak, N/m
+  double notch_stiffness = 0.0;  ///< the same over the opening of the notch, N/m
+};
+
+/// The beam of section 5.1 with the material of a run, load and supports as even pressures over `roller_width` (m; 0:
+/// points).
+[[nodiscard]] Reference beam_reference(const Run& run, double roller_width);
+
+/// The semicircular specimen of a run with its notch upright.
+[[nodiscard]] Reference semicircular_reference(const Run& run, double roller_width);
+
+/// Width of the rollers in the finite elements that a run is compared with, m: whole columns of particles; 0 (a point)
+/// for a single column.
+[[nodiscard]] double roller_width(const Run& run);
+
+/// Slope of the load over the opening of the notch between 10 and 40 % of the peak, N/m.
+[[nodiscard]] double notch_stiffness(const Run& run);
+
+/// Errors of a run of the beam against the finite elements with pressures over the width of its rollers (peak and the
+/// two stiffnesses), and of the energy dissipated by fracture against crack area times G.
+struct BeamErrors {
+  double peak = 0.0, stiffness = 0.0, notch_stiffness = 0.0, energy = 0.0;
+};
+[[nodiscard]] BeamErrors beam_errors(const Run& run);
+
+}  // namespace fpz::sph::report
