@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Sets up, builds, runs the validation sweeps of the particle method (data/validation) and writes docs/validation.md with
+# Sets up, builds, runs the validation sweeps of the particle method (data/sweeps) and writes docs/validation.md with
 # its pictures. Takes about 40 minutes on two free cores. Can be stopped (Ctrl-C) and started again: finished runs are
 # kept, interrupted ones go on. The report says what has not been run; --report writes it from what there is.
 #   scripts/run_validation.sh [--report] [OUTDIR]     (OUTDIR: build/validation)
@@ -27,7 +27,7 @@ if [ "$only_report" = no ]; then
   for sweep in "${sweeps[@]}"; do
     echo "== $sweep"
     status=0
-    build/release/bin/fpz-sph sweep "data/validation/$sweep.json" -o "$out/$sweep" --no-pictures || status=$?
+    build/release/bin/fpz-sph sweep "data/sweeps/$sweep.json" -o "$out/$sweep" --no-pictures || status=$?
     if [ "$status" -eq 3 ]; then
       echo "run_validation.sh: interrupted; the same command goes on" >&2
       exit 3

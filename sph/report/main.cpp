@@ -19,7 +19,7 @@ using namespace fpz::sph::report;
 std::string report(const Results& results, const Gallery& gallery) {
   std::ostringstream out;
   out << "# Validation of the particle method\n\nWritten by `scripts/run_validation.sh` from the runs of the sweeps in "
-         "`data/validation`; every number and every verdict below is\ncomputed from their output "
+         "`data/sweeps`; every number and every verdict below is\ncomputed from their output "
          "([validation.csv](validation.csv) has the main figures of all of them). Forces are for the whole thickness. "
          "Warnings are those\nthat the runs give themselves ([scenes.md](scenes.md)).\n\n";
   write_beam(out, results, gallery);
