@@ -3,7 +3,6 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
@@ -13,6 +12,7 @@
 #include "fpz/calibration/calibration.hpp"
 #include "fpz/calibration/report.hpp"
 #include "fpz/io/output.hpp"
+#include "fpz/io/terminal.hpp"
 
 namespace {
 
@@ -43,38 +43,26 @@ void stop_if_interrupted() {
 }
 
 /// On a terminal one line that is written over again and again; elsewhere one line per stage of the fit.
-class ProgressLine {
+class FitProgressLine {
  public:
-  ProgressLine() : terminal_(::isatty(STDERR_FILENO) == 1) {}
-  ~ProgressLine() {
-    if (shown_) std::fputs("\r\033[K", stderr);
-  }
-  ProgressLine(const ProgressLine&) = delete;
-  ProgressLine& operator=(const ProgressLine&) = delete;
-
   void show(const FitProgress& p) {
-    const auto now = Clock::now();
-    const double elapsed = std::chrono::duration<double>(now - start_).count();
-    if (!terminal_) {
+    const double elapsed = line_.elapsed();
+    if (!line_.on_terminal()) {
       if (p.stage == stage_ || elapsed < 1.0) return;  // nothing for fits that are done at once
       stage_ = p.stage;
       std::fprintf(stderr, "%s, %.0f s elapsed\n", p.stage.c_str(), elapsed);
       return;
     }
-    if (now - last_ < std::chrono::milliseconds(200)) return;
-    last_ = now;
-    shown_ = true;
-    std::fprintf(stderr, "\r\033[K%s, %.0f %%, cost %.6g, %.0f s elapsed", p.stage.c_str(), 100.0 * p.fraction, p.cost,
-                 elapsed);
+    if (!line_.due()) return;
+    char text[80];
+    std::snprintf(text, sizeof text, ", %.0f %%, cost %.6g, %s elapsed", 100.0 * p.fraction, p.cost,
+                  io::clock_text(elapsed).c_str());
+    line_.show(p.stage + text);
   }
 
  private:
-  using Clock = std::chrono::steady_clock;
-  bool terminal_;
-  bool shown_ = false;
+  io::ProgressLine line_;
   std::string stage_;
-  Clock::time_point start_ = Clock::now();
-  Clock::time_point last_ = start_ - std::chrono::seconds(1);
 };
 
 struct Arguments {
@@ -87,14 +75,10 @@ struct Arguments {
   std::int64_t seed = -1;
 };
 
-void warn(const std::vector<std::string>& warnings) {
-  for (const std::string& w : warnings) std::cerr << "warning: " << w << "\n";
-}
-
 int check(const Specification& spec) {
   const FitProblem problem = make_problem(spec);
   require_valid(problem);
-  warn(spec.warnings);
+  io::print_warnings(spec.warnings);
   std::cout << spec.name << ": ok\n";
   for (const FitParameter& p : problem.parameters) {
     std::cout << "  " << p.name << ": start " << p.start << ' ' << p.unit << ", from " << p.lower << " to " << p.upper
@@ -116,15 +100,15 @@ int run(const Arguments& arguments) {
   io::require_absent(report_files(spec, arguments.out, arguments.pictures), arguments.force);
   Calibration result;
   {
-    ProgressLine line;
+    FitProgressLine line;
     result = calibrate(spec, [&](const FitProgress& p) { line.show(p); });
   }
-  warn(result.warnings);
+  io::print_warnings(result.warnings);
   writing = 1;
   const ReportFiles written =
       write_report(result, {arguments.out, arguments.force, arguments.pictures, stop_if_interrupted});
   stop_if_interrupted();
-  warn(written.warnings);
+  io::print_warnings(written.warnings);
   std::cout << short_table(result) << "  " << written.files.size() << " files in " << arguments.out << "\n";
   if (result.result.usable()) return 0;
   std::cerr << "error: the fit is not usable (" << to_string(result.result.status) << ")\n";

@@ -1,9 +1,6 @@
 // fpz-driver: element tests from the command line. Exit status: 0 success; 1 a run, check or comparison failed; 2 bad
 // usage, bad input, or a file that cannot be written.
-#include <unistd.h>
-
 #include <CLI/CLI.hpp>
-#include <chrono>
 #include <cstdio>
 #include <iostream>
 #include <set>
@@ -15,6 +12,7 @@
 #include "fpz/driver/run.hpp"
 #include "fpz/driver/tangent_check.hpp"
 #include "fpz/io/output.hpp"
+#include "fpz/io/terminal.hpp"
 
 namespace {
 
@@ -22,35 +20,15 @@ namespace fs = std::filesystem;
 namespace io = fpz::io;
 using namespace fpz::driver;
 
-/// One line on the terminal that is written over again and again; nothing when stderr is no terminal.
-class ProgressLine {
- public:
-  explicit ProgressLine(std::string name) : name_(std::move(name)), active_(::isatty(STDERR_FILENO) == 1) {}
-  ~ProgressLine() {
-    if (shown_) std::fputs("\r\033[K", stderr);
-  }
-  ProgressLine(const ProgressLine&) = delete;
-  ProgressLine& operator=(const ProgressLine&) = delete;
-
-  void show(const Progress& p) {
-    const auto now = Clock::now();
-    if (!active_ || now - last_ < std::chrono::milliseconds(250)) return;
-    last_ = now;
-    shown_ = true;
-    const double elapsed = std::chrono::duration<double>(now - start_).count();
-    const double remaining = p.time > 0.0 ? elapsed * (p.stages - p.time) / p.time : 0.0;
-    std::fprintf(stderr, "\r\033[K%s: stage %d of %d, D = %.4f, %.0f s elapsed, about %.0f s remaining", name_.c_str(),
-                 p.stage, p.stages, p.damage, elapsed, remaining);
-  }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  std::string name_;
-  bool active_;
-  bool shown_ = false;
-  Clock::time_point start_ = Clock::now();
-  Clock::time_point last_ = start_;
-};
+void show(io::ProgressLine& line, const std::string& name, const Progress& p) {
+  if (!line.due()) return;
+  const double elapsed = line.elapsed();
+  const double remaining = p.time > 0.0 ? elapsed * (p.stages - p.time) / p.time : 0.0;
+  char text[200];
+  std::snprintf(text, sizeof text, ": stage %d of %d, D = %.4f, %s elapsed, about %s remaining", p.stage, p.stages,
+                p.damage, io::clock_text(elapsed).c_str(), io::clock_text(remaining).c_str());
+  line.show(name + text);
+}
 
 struct RunArguments {
   std::string file;
@@ -72,13 +50,9 @@ std::vector<fs::path> test_folders(const PathFile& paths, const fs::path& out) {
   return folders;
 }
 
-void warn(const std::vector<std::string>& warnings) {
-  for (const std::string& w : warnings) std::cerr << "warning: " << w << "\n";
-}
-
 void plot_test(const io::Table& table, PlotRequest request) {
   const PlotOutcome pictures = plot_history(table, request);
-  warn(pictures.warnings);
+  io::print_warnings(pictures.warnings);
   if (!pictures.files.empty())
     std::cout << "  " << pictures.files.size() << " pictures in " << request.folder.string() << "\n";
 }
@@ -88,8 +62,8 @@ bool run_one(const Test& test, const fs::path& folder, const RunArguments& argum
   io::make_writable_folder(folder);
   Result result;
   {
-    ProgressLine line(test.name);
-    result = run_test(test, [&](const Progress& p) { line.show(p); });
+    io::ProgressLine line;
+    result = run_test(test, [&](const Progress& p) { show(line, test.name, p); });
   }
   write_history(folder / "history.csv", result.history, arguments.force);
   write_summary(folder / "summary.json", test, result, arguments.force);

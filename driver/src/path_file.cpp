@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <map>
 #include <utility>
 
@@ -63,11 +62,6 @@ class Scope {
 
 bool is_short_text(const JsonValue* v) { return v != nullptr && v->is(Kind::string) && v->text.size() <= longest_name; }
 
-std::string lower_case(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
-
 class FileReader {
  public:
   FileReader(const std::filesystem::path& origin, const Limits& limits)
@@ -118,7 +112,7 @@ class FileReader {
       tests.push_back(
           read_test(Scope(place, root), base + '_' + std::to_string(&item - list.value().items.data() + 1)));
       // Results of tests with one name would overwrite each other, on some file systems whatever the letter case.
-      const auto [other, is_new] = names.emplace(lower_case(tests.back().name), names.size());
+      const auto [other, is_new] = names.emplace(io::lower_case(tests.back().name), names.size());
       if (!is_new) reader_.problem(place, "two tests with the name " + in_quotes(tests.back().name));
     }
   }

@@ -38,7 +38,8 @@ std::vector<Point> collect(const Results& results) {
   for (const SweepRuns* sweep : {&results.beam_methods, &results.beam_methods_fine, &results.beam_rate,
                                  &results.beam_spacing, &results.beam_fine}) {
     for (const Run& run : sweep->runs) {
-      const bool comparable = sweep != &results.beam_spacing || run.series == "band";
+      const bool spacings = sweep == &results.beam_spacing || sweep == &results.beam_fine;
+      const bool comparable = !spacings || run.series == "band narrow";
       if (comparable) points.push_back({&run, run.figure("particles") * run.figure("steps"), 0.0, beam_errors(run)});
     }
   }
@@ -152,7 +153,8 @@ void write_cost(std::ostream& out, const Results& r, const Gallery& gallery) {
   (void)write_state(out, r.beam_methods_fine, "Methods at 2 mm");
   const std::vector<Point> points = collect(r);
   if (points.empty()) return;
-  out << "\nThe notched beam with the cohesion raised and H = `band`, rollers 8 mm wide. Error of the peak: against "
+  out << "\nThe notched beam with the cohesion raised and H = `band`, rollers of one column. Error of the peak: "
+         "against "
          "finite "
          "elements\nwith pressures of the same width. Error of the energy: what fracture dissipated against crack area "
          "times G. Seconds are\nparticle-steps divided by the best rate of all runs that share configuration, kernel "

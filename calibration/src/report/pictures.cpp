@@ -30,16 +30,6 @@ constexpr const char* predicted_band_colour = "#F7D4B8";
 constexpr const char* limit_colour = "#009E73";
 constexpr Eigen::Index most_error_bars = 80;
 
-/// Text in gnuplot's enhanced mode, as it is.
-std::string plain(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (std::string_view("_^{}@&~\\").find(c) != std::string_view::npos) out += '\\';
-    out += c;
-  }
-  return out;
-}
-
 std::string pretty_symbol(const FitParameter& p) {
   constexpr std::array<std::pair<std::string_view, std::string_view>, 8> symbols = {{{"nu", "ν"},
                                                                                      {"sigma_t0", "σ_{t0}"},
@@ -52,11 +42,11 @@ std::string pretty_symbol(const FitParameter& p) {
   for (const auto& [name, pretty] : symbols) {
     if (p.symbol == name) return std::string(pretty);
   }
-  return plain(p.symbol);
+  return io::gnuplot_plain(p.symbol);
 }
 
 std::string axis_label(const Axis& a) {
-  return plain(a.label) + (a.unit.empty() ? "" : " (" + pretty_unit(a.unit) + ")");
+  return io::gnuplot_plain(a.label) + (a.unit.empty() ? "" : " (" + pretty_unit(a.unit) + ")");
 }
 
 std::string lines(const char* colour, double width, int dash = 1) {
@@ -151,7 +141,7 @@ Picture curve_picture(const Calibration& all, const Comparison& c) {
   }
   Picture picture(data_picture_name(set), 860, 580);
   Panel panel;
-  panel.title = plain(set.name) + (fitted ? "" : ": not fitted, predicted");
+  panel.title = io::gnuplot_plain(set.name) + (fitted ? "" : ": not fitted, predicted");
   panel.x_label = axis_label(set.abscissa_axis);
   panel.y_label = axis_label(set.value_axis);
   panel.before = "set ylabel offset -0.4,0";
@@ -177,8 +167,8 @@ Picture values_picture(const Calibration& all, const Comparison& c) {
     const double d = scale * (c.ok() ? c.deviation[k] : set.deviation[k]);
     bars.push_back({{100.0 - d, y + 0.1}, {100.0 + d, y + 0.1}});
     measured.emplace_back(100.0, y + 0.1);
-    names +=
-        (k > 0 ? ", " : "") + gnuplot_quoted(plain(set.labels[static_cast<std::size_t>(k)])) + ' ' + gnuplot_number(y);
+    names += (k > 0 ? ", " : "") + gnuplot_quoted(io::gnuplot_plain(set.labels[static_cast<std::size_t>(k)])) + ' ' +
+             gnuplot_number(y);
     if (!c.ok()) continue;
     predicted.emplace_back(scale * c.predicted[k], y - 0.1);
     bands.push_back({{scale * (c.predicted[k] - c.band[k]), y - 0.1}, {scale * (c.predicted[k] + c.band[k]), y - 0.1}});
@@ -192,7 +182,7 @@ Picture values_picture(const Calibration& all, const Comparison& c) {
   const int height = 230 + 40 * static_cast<int>(std::min<Eigen::Index>(n, 40));
   Picture picture(data_picture_name(set), 860, height);
   Panel panel;
-  panel.title = plain(set.name);
+  panel.title = io::gnuplot_plain(set.name);
   panel.x_label = "Value over the measured one (%)";
   panel.before = "set ytics (" + names + ")";
   panel.series = series;
@@ -225,7 +215,7 @@ Picture draw_residuals(const Calibration& all) {
     const Eigen::VectorXd& z = sets[k].result->standardised;
     const std::vector<Point> values = curve(set.abscissa, set.is_curve() ? set.abscissa_axis.factor : 1.0, z, 1.0);
     Panel panel;
-    panel.title = plain(set.name);
+    panel.title = io::gnuplot_plain(set.name);
     panel.x_label = set.is_curve() ? axis_label(set.abscissa_axis) : "Number of the value";
     panel.y_label = "(fit - data)/s.d.";
     Series marks{"", points(fit_colour, 7, z.size() > 40 ? 0.5 : 0.8), values};

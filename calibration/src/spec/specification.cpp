@@ -1,7 +1,6 @@
 #include "fpz/calibration/specification.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <set>
 
@@ -24,11 +23,6 @@ constexpr std::array<std::string_view, 6> option_keys = {"starts",   "seed",    
                                                          "profiles", "profile_points", "max_iterations"};
 constexpr std::array<std::string_view, 3> reference_keys = {"value", "unit", "source"};
 constexpr std::array<std::string_view, 2> setting_names = {"plane_strain", "plane_stress"};
-
-std::string lower_case(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
 
 class SpecificationReader {
  public:
@@ -88,7 +82,7 @@ class SpecificationReader {
       std::optional<DataSet> set = read_data_set({context_, folder, spec.setting}, place);
       if (!set) continue;
       // Files are named after the sets, on some file systems whatever the letter case.
-      if (!folders.insert(lower_case(driver::folder_name(set->name))).second) {
+      if (!folders.insert(io::lower_case(driver::folder_name(set->name))).second) {
         reader_.problem(place, "two data sets would share the file name " + io::in_quotes(set->name));
       }
       spec.data.push_back(std::move(*set));

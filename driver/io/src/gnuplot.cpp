@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <sstream>
+#include <string_view>
 
 #include "fpz/io/output.hpp"
 
@@ -44,6 +45,15 @@ std::string gnuplot_quoted(const std::string& text) {
     if (c == '\'') out += c;
   }
   return out + "'";
+}
+
+std::string gnuplot_plain(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (std::string_view("_^{}@&~\\").find(c) != std::string_view::npos) out += '\\';
+    out += c;
+  }
+  return out;
 }
 
 std::string gnuplot_number(double x) {

@@ -11,16 +11,19 @@ using Kind = JsonValue::Kind;
 
 /// What to do about a string where a number belongs; empty when nothing can be guessed.
 std::string advice_on_string(std::string_view text) {
-  std::string lower;
-  for (const char c : text.substr(0, 16)) {
-    if (c != '+' && c != '-') lower += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  }
+  std::string lower = lower_case(std::string(text.substr(0, 16)));
+  std::erase_if(lower, [](char c) { return c == '+' || c == '-'; });
   if (lower == "nan" || lower == "inf" || lower == "infinity") return ": NaN and infinity are not allowed";
   const bool numeric = !text.empty() && text.find_first_not_of("0123456789+-.eE") == std::string_view::npos;
   return numeric ? ": write it without quotes" : "";
 }
 
 }  // namespace
+
+std::string lower_case(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
 
 void InputReader::problem(const Place& place, const std::string& text) const {
   const std::string path = place.path();

@@ -1,9 +1,6 @@
 // fpz-sph: fracture tests of specimens from the command line. Exit status: 0 success; 1 the run failed; 2 bad usage,
 // bad input, or a file that cannot be written; 3 interrupted, with a checkpoint.
-#include <unistd.h>
-
 #include <CLI/CLI.hpp>
-#include <chrono>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
@@ -11,6 +8,7 @@
 
 #include "fpz/io/input_error.hpp"
 #include "fpz/io/output.hpp"
+#include "fpz/io/terminal.hpp"
 #include "fpz/sph/scene/estimate.hpp"
 #include "fpz/sph/scene/pictures.hpp"
 #include "fpz/sph/scene/run.hpp"
@@ -19,72 +17,43 @@
 namespace {
 
 namespace fs = std::filesystem;
+namespace io = fpz::io;
 using namespace fpz::sph;
 
 volatile std::sig_atomic_t interrupted = 0;
 extern "C" void on_signal(int) { interrupted = 1; }
 
-std::string clock_text(double seconds) {
-  const auto s = static_cast<long long>(seconds + 0.5);
-  char text[40];
-  if (s >= 3600) {
-    std::snprintf(text, sizeof text, "%lld:%02lld:%02lld", s / 3600, s / 60 % 60, s % 60);
-  } else {
-    std::snprintf(text, sizeof text, "%lld:%02lld", s / 60, s % 60);
-  }
-  return text;
-}
-
-/// One line on the terminal that is written over again and again; nothing when stderr is no terminal.
-class ProgressLine {
+/// Remaining time from what this process has done, as a resumed run begins somewhere on the way.
+class RunProgressLine {
  public:
-  ProgressLine() : active_(::isatty(STDERR_FILENO) == 1) {}
-  ~ProgressLine() {
-    if (shown_) std::fputs("\r\033[K", stderr);
-  }
-  ProgressLine(const ProgressLine&) = delete;
-  ProgressLine& operator=(const ProgressLine&) = delete;
-
   void show(const Progress& p) {
-    if (!due()) return;
-    if (!shown_) first_fraction_ = p.fraction, first_seconds_ = p.seconds;
+    if (!line_.due()) return;
+    if (!begun_) first_fraction_ = p.fraction, first_seconds_ = p.seconds;
+    begun_ = true;
     const double done = p.fraction - first_fraction_;
     const double left = done > 0.0 ? (p.seconds - first_seconds_) * (1.0 - p.fraction) / done : 0.0;
     char text[200];
     std::snprintf(text, sizeof text,
                   "%5.1f %%  load %.4g N, %zu damaged, %.0f steps/s, %s elapsed, at most %s remaining",
-                  100.0 * p.fraction, p.load, p.damaged, p.steps_per_second, clock_text(p.seconds).c_str(),
-                  clock_text(left).c_str());
-    write(text);
-  }
-
-  void show(const SweepProgress& p) {
-    if (!due()) return;
-    char text[200];
-    std::snprintf(text, sizeof text, "%zu of %zu runs done, %zu running, %s elapsed, about %s remaining", p.done, p.all,
-                  p.running, clock_text(p.seconds).c_str(),
-                  std::isnan(p.remaining) ? "?" : clock_text(p.remaining).c_str());
-    write(text);
+                  100.0 * p.fraction, p.load, p.damaged, p.steps_per_second, io::clock_text(p.seconds).c_str(),
+                  io::clock_text(left).c_str());
+    line_.show(text);
   }
 
  private:
-  [[nodiscard]] bool due() {
-    const auto now = std::chrono::steady_clock::now();
-    if (!active_ || now - last_ < std::chrono::milliseconds(250)) return false;
-    last_ = now;
-    return true;
-  }
-
-  void write(const char* text) {
-    shown_ = true;
-    std::fprintf(stderr, "\r\033[K%s", text);
-  }
-
-  bool active_;
-  bool shown_ = false;
+  io::ProgressLine line_;
+  bool begun_ = false;
   double first_fraction_ = 0.0, first_seconds_ = 0.0;
-  std::chrono::steady_clock::time_point last_{};
 };
+
+void show(io::ProgressLine& line, const SweepProgress& p) {
+  if (!line.due()) return;
+  char text[200];
+  std::snprintf(text, sizeof text, "%zu of %zu runs done, %zu running, %s elapsed, about %s remaining", p.done, p.all,
+                p.running, io::clock_text(p.seconds).c_str(),
+                std::isnan(p.remaining) ? "?" : io::clock_text(p.remaining).c_str());
+  line.show(text);
+}
 
 struct Arguments {
   std::string scene, out;
@@ -94,18 +63,14 @@ struct Arguments {
   long long steps = 0;
 };
 
-void warn(const std::vector<std::string>& warnings) {
-  for (const std::string& w : warnings) std::cerr << "warning: " << w << "\n";
-}
-
 void report_pictures(const PictureOutcome& pictures, const fs::path& folder) {
-  warn(pictures.warnings);
+  io::print_warnings(pictures.warnings);
   if (!pictures.files.empty()) std::cout << "  " << pictures.files.size() << " pictures in " << folder.string() << "\n";
 }
 
 int run(const Arguments& a) {
   const SceneFile scene = read_scene(a.scene, a.set);
-  warn(scene.warnings);
+  io::print_warnings(scene.warnings);
   RunRequest request;
   request.folder = a.out;
   request.force = a.force;
@@ -117,7 +82,7 @@ int run(const Arguments& a) {
   std::signal(SIGTERM, on_signal);
   RunResult result;
   {
-    ProgressLine line;
+    RunProgressLine line;
     request.progress = [&](const Progress& p) { line.show(p); };
     result = run_scene(scene, request);
   }
@@ -126,7 +91,7 @@ int run(const Arguments& a) {
     std::cout << scene.name << ": " << result.reason << "\n  " << RunFiles(a.out).checkpoint.string() << "\n";
     return 3;
   }
-  warn(result.warnings);
+  io::print_warnings(result.warnings);
   std::cout << scene.name << ": " << (result.ending == Ending::failed ? "FAILED: " : "") << result.reason << "\n"
             << result.report << "  " << RunFiles(a.out).history.string() << " (" << h.rows() << " rows), "
             << result.record.frames.size() << " frames in " << (fs::path(a.out) / "frames.pvd").string() << "\n";
@@ -136,13 +101,13 @@ int run(const Arguments& a) {
 
 int check(const Arguments& a) {
   const SceneFile scene = read_scene(a.scene, a.set);
-  warn(scene.warnings);
+  io::print_warnings(scene.warnings);
   const Specimen specimen = make_specimen(scene);
   std::cout << scene.name << ": the scene is valid\n"
             << estimate_text(scene, specimen, estimate(scene, specimen, a.threads));
   if (!a.pictures) return 0;
   const fs::path folder = a.out.empty() ? fs::path("fpz-check-" + scene.name) : fs::path(a.out);
-  fpz::io::make_writable_folder(folder);
+  io::make_writable_folder(folder);
   report_pictures(draw_scene(scene, specimen, folder, true), folder);
   return 0;
 }
@@ -159,8 +124,8 @@ int sweep(const Arguments& a) {
   std::signal(SIGTERM, on_signal);
   SweepResult result;
   {
-    ProgressLine line;
-    request.progress = [&](const SweepProgress& p) { line.show(p); };
+    io::ProgressLine line;
+    request.progress = [&](const SweepProgress& p) { show(line, p); };
     result = run_sweep(sweep, request);
   }
   std::size_t kept = 0, with_warnings = 0;

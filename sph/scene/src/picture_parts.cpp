@@ -20,15 +20,6 @@ std::string text_of(double x, int digits) {
   return s.str();
 }
 
-std::string plain(const std::string& name) {
-  std::string text;
-  for (const char c : name) {
-    if (std::string_view("_^{}@&~\\").find(c) != std::string_view::npos) text += '\\';
-    text += c;
-  }
-  return text;
-}
-
 io::Picture with_legend(const std::string& name, const io::Panel& panel, int columns) {
   const auto entries = static_cast<int>(panel.series.size());
   const int more = 22 * (std::max(1, (entries + columns - 1) / columns) - 1);  // pixels for rows below the first

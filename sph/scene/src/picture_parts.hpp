@@ -22,9 +22,6 @@ inline constexpr const char* grey = "#808080";
 
 [[nodiscard]] std::string text_of(double x, int digits = 3);
 
-/// A name as gnuplot shows it: an underscore is no subscript.
-[[nodiscard]] std::string plain(const std::string& name);
-
 /// One panel with the legend of its series below.
 [[nodiscard]] io::Picture with_legend(const std::string& name, const io::Panel& panel, int columns);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "fpz/io/csv.hpp"
+#include "fpz/io/gnuplot.hpp"
 #include "fpz/io/input_error.hpp"
 #include "fpz/io/output.hpp"
 #include "fpz/sph/scene/run.hpp"
@@ -150,7 +151,8 @@ PictureOutcome draw_run(const fs::path& folder, bool force) {
   const SceneFile scene = read_scene(files.scene);
   const std::vector<Frame> frames = read_pvd(folder / "frames.pvd");
   if (gnuplot_missing(outcome)) return outcome;
-  std::vector<Picture> pictures = {load_deflection(t, plain(scene.name)), energies(t, plain(scene.name))};
+  std::vector<Picture> pictures = {load_deflection(t, io::gnuplot_plain(scene.name)),
+                                   energies(t, io::gnuplot_plain(scene.name))};
   if (!frames.empty()) {
     const auto maps = damage_maps(folder, frames, t, scene.output.picture_loads);
     if (!maps.empty()) pictures.push_back(map_picture("damage", maps, damage_classes(), scene.spacing, 7));
@@ -167,10 +169,10 @@ PictureOutcome draw_scene(const SceneFile& scene, const Specimen& specimen, cons
   const char* colours[] = {"#C0392B", "#1F5FA8", "#2E8B57", "#D68910", "#8E44AD", "#16A0A0"};
   std::vector<ColourClass> classes = {{"specimen", "#D8D8D2"}};
   for (std::size_t b = 0; b < scene.boundaries.size(); ++b)
-    classes.push_back({plain(scene.boundaries[b].name), colours[b % 6]});
+    classes.push_back({io::gnuplot_plain(scene.boundaries[b].name), colours[b % 6]});
   classes.push_back({"gauges", "#202020"});
   const Arrangement<2>& a = specimen.setup.arrangement;
-  ParticleMap map{plain(scene.name) + ": " + std::to_string(a.size()) + " particles", a.position, {}, {}};
+  ParticleMap map{io::gnuplot_plain(scene.name) + ": " + std::to_string(a.size()) + " particles", a.position, {}, {}};
   for (const int g : a.group) map.colour.push_back(static_cast<std::size_t>(g + 1));
   for (const auto& points : outlines(scene.body)) map.lines.push_back(outline(points, "lines lw 1.5 lc rgb '#202020'"));
   std::vector<Point> gauges;

@@ -49,7 +49,7 @@ Axis axis_of(const std::string& column) {
 }
 
 std::string parameter_title(const Sweep& sweep) {
-  return plain(sweep.parameter) + (sweep.unit.empty() ? "" : ", " + plain(sweep.unit));
+  return io::gnuplot_plain(sweep.parameter) + (sweep.unit.empty() ? "" : ", " + io::gnuplot_plain(sweep.unit));
 }
 
 std::size_t figure_index(const std::string& column) {
@@ -70,7 +70,8 @@ bool has_numbers(const Sweep& sweep) {
 std::string label_tics(const Sweep& sweep) {
   std::string tics;
   for (std::size_t k = 0; k < values_of(sweep); ++k) {
-    tics += (k > 0 ? ", " : "") + io::gnuplot_quoted(plain(sweep.runs[k].label)) + " " + std::to_string(k + 1);
+    tics +=
+        (k > 0 ? ", " : "") + io::gnuplot_quoted(io::gnuplot_plain(sweep.runs[k].label)) + " " + std::to_string(k + 1);
   }
   return "set xtics (" + tics + ")";
 }
@@ -81,13 +82,13 @@ Picture column_picture(const Sweep& sweep, const std::vector<SweepRow>& rows, co
   const Axis x = axis_of(what.x), y = axis_of(what.y);
   const std::size_t kx = figure_index(what.x), ky = figure_index(what.y);
   Panel panel;
-  panel.title = plain(sweep.name);
+  panel.title = io::gnuplot_plain(sweep.name);
   panel.x_label = over_parameter ? parameter_title(sweep) : x.title;
   panel.y_label = y.title;
   for (std::size_t s = 0; s < sweep.series.size(); ++s) {
     const std::string style =
         std::string("linespoints lw 2 ps 0.9 pt ") + std::to_string(marks[s % 6]) + " lc rgb '" + colours[s % 6] + "'";
-    panel.series.push_back({plain(sweep.series[s]), style, {}});
+    panel.series.push_back({io::gnuplot_plain(sweep.series[s]), style, {}});
   }
   for (std::size_t k = 0; k < sweep.runs.size(); ++k) {
     if (!has_result(rows[k])) continue;
@@ -100,7 +101,7 @@ Picture column_picture(const Sweep& sweep, const std::vector<SweepRow>& rows, co
     const SweepReference& reference = sweep.references[r];
     if (reference.x != what.x || reference.y != what.y) continue;
     const std::string colour = " lc rgb '#202020'";
-    Series s{plain(reference.name),
+    Series s{io::gnuplot_plain(reference.name),
              reference.points ? "points pt " + std::to_string(4 + 2 * r) + " ps 1.1" + colour
                               : "lines lw 1.5 dt " + std::to_string(r + 2) + colour,
              {}};
@@ -117,7 +118,7 @@ Picture column_picture(const Sweep& sweep, const std::vector<SweepRow>& rows, co
 /// Load over deflection of all runs of a series, coloured from the first to the last value.
 Picture curve_picture(const Sweep& sweep, const std::vector<SweepRow>& rows, const fs::path& folder, std::size_t s) {
   Panel panel;
-  panel.title = plain(sweep.name + ", " + sweep.series[s]);
+  panel.title = io::gnuplot_plain(sweep.name + ", " + sweep.series[s]);
   panel.x_label = "deflection, µm";
   panel.y_label = "load, N";
   const std::size_t n = values_of(sweep);
@@ -127,7 +128,7 @@ Picture curve_picture(const Sweep& sweep, const std::vector<SweepRow>& rows, con
     const double hue = n > 1 ? 0.68 * (1.0 - static_cast<double>(k - s * n) / static_cast<double>(n - 1)) : 0.6;
     char colour[80];
     std::snprintf(colour, sizeof colour, "lines lw 1.6 lc rgb hsv2rgb(%.3f,0.85,0.8)", hue);
-    Series curve{plain(sweep.runs[k].label + (sweep.unit.empty() ? "" : " " + sweep.unit)), colour, {}};
+    Series curve{io::gnuplot_plain(sweep.runs[k].label + (sweep.unit.empty() ? "" : " " + sweep.unit)), colour, {}};
     const auto &u = t.at("deflection"), &load = t.at("load");
     for (std::size_t r = 0; r < t.rows(); ++r) curve.points.emplace_back(1e6 * u[r], load[r]);
     panel.series.push_back(std::move(curve));
@@ -146,7 +147,7 @@ Picture map_montage(const Sweep& sweep, const std::vector<SweepRow>& rows, const
     const std::vector<Frame> frames = read_pvd(folder / run.folder / "frames.pvd");
     if (frames.empty()) continue;
     maps.push_back(damage_map(read_vtk(folder / run.folder / frames.back().file),
-                              plain(run.label + (sweep.unit.empty() ? "" : " " + sweep.unit))));
+                              io::gnuplot_plain(run.label + (sweep.unit.empty() ? "" : " " + sweep.unit))));
     size = std::max(size, run.scene.spacing);
   }
   return map_picture("damage_" + sweep.runs[s * n].folder.parent_path().string(), maps, damage_classes(), size, 7);

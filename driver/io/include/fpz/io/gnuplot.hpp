@@ -13,6 +13,9 @@ namespace fpz::io {
 /// A string literal of gnuplot; control characters are left out.
 [[nodiscard]] std::string gnuplot_quoted(const std::string& text);
 
+/// Text that gnuplot's enhanced mode shows as it is: an underscore is no subscript.
+[[nodiscard]] std::string gnuplot_plain(const std::string& text);
+
 /// A number as gnuplot reads it, ten significant digits.
 [[nodiscard]] std::string gnuplot_number(double x);
 

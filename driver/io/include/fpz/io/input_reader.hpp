@@ -12,6 +12,9 @@
 
 namespace fpz::io {
 
+/// ASCII letters in lower case: names that differ in case only are one folder on some systems.
+[[nodiscard]] std::string lower_case(std::string text);
+
 class InputReader {
  public:
   InputReader(std::string file, const ReadLimits& limits, Problems& problems)
