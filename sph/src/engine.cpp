@@ -87,6 +87,7 @@ void Engine<Dim>::place_particles() {
   p.volume.assign(padded, 1.0);
   p.density.assign(padded, 1.0);
   p.length.assign(padded, 1.0);
+  p.fracture.assign(padded, 0.0);
   p.kind.assign(padded, kind::elastic);
   p.rotation[0].assign(padded, 1.0);
   p.point.resize(p.count);

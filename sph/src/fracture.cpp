@@ -73,6 +73,8 @@ Outcome Engine<Dim>::update_flagged(Index first, Index last) {
       rotate<double, Dim>(point, q);
     }
     if (point.cracked) {
+      // With the volume of this step: in `updated` a particle grows by its crack, and so does the work done on it.
+      p.fracture[i] += p.volume[i] * (dissipated_energy(m, point) - dissipated_energy(m, begin));
       p.kind[i] = kind::cracked;
       p.point[i] = point;
     }

@@ -12,7 +12,7 @@ namespace fpz::sph {
 namespace {
 
 constexpr std::uint64_t magic = 0x314850535a5046ULL;  // "FPZSPH1"
-constexpr std::uint64_t version = 2;
+constexpr std::uint64_t version = 3;
 
 std::uint64_t fnv(std::span<const unsigned char> bytes) {
   std::uint64_t h = 14695981039346656037ULL;
@@ -168,6 +168,7 @@ void visit(A& archive, detail::Engine<Dim>& e) {
   archive(p.density);
   archive(p.kind);
   archive(p.length);
+  archive(p.fracture);
   for (std::size_t i = 0; i < p.count; ++i) {
     if (p.kind[i] == kind::cracked) visit(archive, p.point[i]);
   }

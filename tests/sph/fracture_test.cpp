@@ -139,6 +139,17 @@ TEST(Fracture, PairDissipatesTheFractureEnergy) {
   EXPECT_NEAR(e.fracture / (2.0 * exact), 1.0, 2e-3);  // two particles, each with its crack
 }
 
+/// In `updated` an opening of a sixth of the spacing makes the particles a sixth larger, and the work done on them too.
+TEST(Fracture, EnergyBalancesWhereParticlesGrowByTheirCracks) {
+  Scene<2> s = pair(concrete(), Configuration::updated, 0.4, false);
+  Simulation<2> run(s);
+  advance(run, 4000);
+  const Energies e = run.energies();
+  EXPECT_GT(run.particles().point[0].crack.jump[0], 0.15 * spacing);
+  EXPECT_GT(e.fracture, 0.9 * e.external);
+  EXPECT_LT(std::abs(e.error()), 1e-3 * e.external);
+}
+
 /// A bar whose two middle columns may crack is torn by opposite velocities of its halves. Bonds across the open crack
 /// are cut and the halves fly apart: momentum zero in all, no force between them in the end, energy balanced, the
 /// fracture energy of one crack dissipated by the two columns whose H is their common width.

@@ -40,6 +40,7 @@ struct Particles {
   Field volume;           ///< reference: of the undeformed particle; updated: current
   Field density;          ///< updated: kg/m^3, without mass scaling
   Field length;           ///< H, m; with RveLength::Rule::band of cracked particles only, else their size
+  Field fracture;         ///< energy dissipated by the crack, J: the sum of volume times its density over the steps
   Field kind;
   Fields<tensor_size<Dim>> stress;        ///< reference: in the frame that turns with the particle
   Fields<tensor_size<Dim>> strain;        ///< reference: U - I; updated: increment of the last step
