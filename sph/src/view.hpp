@@ -61,7 +61,6 @@ struct View {
   double smoothing = 0.0, inverse_smoothing = 0.0;
   double slope_norm = 0.0;  // kernel_norm / h^2
   double reference_shape = 1.0;
-  int closeness_power = 4;
   double rest_density = 0.0, sound_speed = 0.0, viscosity_alpha = 0.0, viscosity_beta = 0.0;
   double artificial_stress = 0.0;
   double control_viscosity = 0.0;  // Pa s, times the number of steps that one action of the control stands for
