@@ -1,21 +1,6 @@
 # Runs fpz-calibrate from outside: exit statuses, files, and that the driver takes the material.
 cmake_minimum_required(VERSION 3.25)
-file(REMOVE_RECURSE "${WORK}")
-file(MAKE_DIRECTORY "${WORK}/empty")
-
-# expect(<status> <text that the output must contain or ""> <argument>...)
-function(expect status text)
-  execute_process(COMMAND "${PROGRAM}" ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE out ERROR_VARIABLE err)
-  if(NOT result EQUAL status)
-    message(SEND_ERROR "fpz-calibrate ${ARGN}: exit status ${result}, not ${status}\n${out}${err}")
-  endif()
-  if(NOT text STREQUAL "")
-    string(FIND "${out}${err}" "${text}" found)
-    if(found EQUAL -1)
-      message(SEND_ERROR "fpz-calibrate ${ARGN}: no \"${text}\" in\n${out}${err}")
-    endif()
-  endif()
-endfunction()
+include("${CMAKE_CURRENT_LIST_DIR}/../support/program.cmake")
 
 function(expect_file there)
   foreach(file ${ARGN})

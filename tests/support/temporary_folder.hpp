@@ -38,6 +38,13 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
+/// A path where nothing is, in a folder that goes away when the test program ends.
+inline std::filesystem::path fresh_path(const std::string& name) {
+  static const TemporaryFolder all;
+  std::filesystem::remove_all(all.path() / name);
+  return all.path() / name;
+}
+
 inline std::string text_of(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};

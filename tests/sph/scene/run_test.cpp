@@ -4,12 +4,12 @@
 
 #include <cmath>
 #include <fstream>
-#include <sstream>
 
 #include "fpz/io/csv.hpp"
 #include "fpz/io/input_error.hpp"
 #include "fpz/io/output.hpp"
 #include "fpz/sph/scene/summary.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace {
 
@@ -17,12 +17,6 @@ using namespace fpz::sph;
 namespace fs = std::filesystem;
 
 const fs::path scenes = fs::path(FPZ_DATA_DIR) / "scenes";
-
-fs::path fresh(const std::string& name) {
-  const fs::path f = fs::temp_directory_path() / ("fpz_run_test_" + std::to_string(::getpid())) / name;
-  fs::remove_all(f);
-  return f;
-}
 
 /// A small beam that cracks within about 3000 steps.
 SceneFile small_beam(const Overrides& more = {}) {
@@ -41,15 +35,9 @@ RunResult run(const SceneFile& scene, const fs::path& folder, long long steps = 
   return run_scene(scene, request);
 }
 
-std::string content(const fs::path& file) {
-  std::ostringstream s;
-  s << std::ifstream(file, std::ios::binary).rdbuf();
-  return s.str();
-}
-
 TEST(Run, CoarseBeamCracksAndBalances) {
   const SceneFile scene = small_beam();
-  const fs::path folder = fresh("beam");
+  const fs::path folder = fpz::test::fresh_path("beam");
   const RunResult r = run(scene, folder);
   EXPECT_EQ(r.ending, Ending::finished) << r.reason;
   const fpz::io::Table t = fpz::io::read_csv(folder / "history.csv");
@@ -80,7 +68,7 @@ TEST(Run, CoarseBeamCracksAndBalances) {
        {"damage", "crack_normal", "jump", "stress_xx", "velocity", "elastic_energy", "dissipated_energy"}) {
     EXPECT_NE(last.find(name), nullptr) << name;
   }
-  EXPECT_NE(content(folder / "summary.json").find("\"fracture_energy_ratio\""), std::string::npos);
+  EXPECT_NE(fpz::test::text_of(folder / "summary.json").find("\"fracture_energy_ratio\""), std::string::npos);
   EXPECT_FALSE(fs::exists(folder / "checkpoint.bin"));
   for (const auto& entry : fs::recursive_directory_iterator(folder))
     EXPECT_NE(entry.path().filename().string()[0], '.');
@@ -89,7 +77,7 @@ TEST(Run, CoarseBeamCracksAndBalances) {
 TEST(Run, ResumesBitForBit) {
   for (const char* configuration : {"reference", "updated"}) {
     const SceneFile scene = small_beam({std::string("method.configuration=") + configuration, "stop.time=6e-4"});
-    const fs::path whole = fresh("whole"), parts = fresh("parts");
+    const fs::path whole = fpz::test::fresh_path("whole"), parts = fpz::test::fresh_path("parts");
     (void)run(scene, whole);
     RunResult r = run(scene, parts, 137);
     EXPECT_EQ(r.ending, Ending::interrupted);
@@ -97,37 +85,38 @@ TEST(Run, ResumesBitForBit) {
     for (; r.ending == Ending::interrupted && pieces < 50; ++pieces) r = run(scene, parts, 137, true);
     EXPECT_EQ(r.ending, Ending::finished) << r.reason;
     EXPECT_GT(pieces, 3);
-    EXPECT_EQ(content(parts / "history.csv"), content(whole / "history.csv"));
-    EXPECT_EQ(content(parts / "frames.pvd"), content(whole / "frames.pvd"));
-    for (const Frame& f : read_pvd(whole / "frames.pvd")) EXPECT_EQ(content(parts / f.file), content(whole / f.file));
-    EXPECT_EQ(content(parts / "crack.csv"), content(whole / "crack.csv"));
+    EXPECT_EQ(fpz::test::text_of(parts / "history.csv"), fpz::test::text_of(whole / "history.csv"));
+    EXPECT_EQ(fpz::test::text_of(parts / "frames.pvd"), fpz::test::text_of(whole / "frames.pvd"));
+    for (const Frame& f : read_pvd(whole / "frames.pvd"))
+      EXPECT_EQ(fpz::test::text_of(parts / f.file), fpz::test::text_of(whole / f.file));
+    EXPECT_EQ(fpz::test::text_of(parts / "crack.csv"), fpz::test::text_of(whole / "crack.csv"));
   }
 }
 
 TEST(Run, ResumeRefusesWhatDoesNotBelong) {
   const SceneFile scene = small_beam({"stop.time=6e-4"});
-  const fs::path folder = fresh("refuse");
+  const fs::path folder = fpz::test::fresh_path("refuse");
   EXPECT_THROW((void)run(scene, folder, 0, true), fpz::io::InputError);  // nothing there
   (void)run(scene, folder, 50);
   EXPECT_THROW((void)run(small_beam({"stop.time=7e-4"}), folder, 50, true), fpz::io::InputError);
   EXPECT_THROW((void)run(scene, folder, 50), fpz::io::OutputError);  // files in the way
-  std::string bytes = content(folder / "checkpoint.bin");
+  std::string bytes = fpz::test::text_of(folder / "checkpoint.bin");
   bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
   std::ofstream(folder / "checkpoint.bin", std::ios::binary) << bytes;
   EXPECT_THROW((void)run(scene, folder, 50, true), fpz::io::InputError);
 }
 
 TEST(Run, StopsWhenToldTo) {
-  const RunResult deflection = run(small_beam({"stop.deflection=1e-5"}), fresh("deflection"));
+  const RunResult deflection = run(small_beam({"stop.deflection=1e-5"}), fpz::test::fresh_path("deflection"));
   EXPECT_NE(deflection.reason.find("stop.deflection"), std::string::npos);
   EXPECT_GE(deflection.record.history.last("deflection"), 1e-5);
-  const RunResult drop = run(small_beam({"stop.load_below=0.9"}), fresh("drop"));
+  const RunResult drop = run(small_beam({"stop.load_below=0.9"}), fpz::test::fresh_path("drop"));
   EXPECT_NE(drop.reason.find("stop.load_below"), std::string::npos);
 }
 
 TEST(Run, AnExplodingRunSaysSo) {
-  const RunResult r =
-      run(small_beam({"boundaries[0].velocity.y={\"speed\": -1e5}", "stop={\"time\": 2e-3}"}), fresh("explodes"));
+  const RunResult r = run(small_beam({"boundaries[0].velocity.y={\"speed\": -1e5}", "stop={\"time\": 2e-3}"}),
+                          fpz::test::fresh_path("explodes"));
   EXPECT_EQ(r.ending, Ending::failed);
   EXPECT_NE(r.reason.find("particle"), std::string::npos);
 }

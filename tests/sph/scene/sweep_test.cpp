@@ -5,12 +5,12 @@
 
 #include <cmath>
 #include <fstream>
-#include <sstream>
 
 #include "fpz/io/csv.hpp"
 #include "fpz/io/input_error.hpp"
 #include "fpz/io/output.hpp"
 #include "fpz/sph/scene/run.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace {
 
@@ -20,16 +20,9 @@ namespace fs = std::filesystem;
 const fs::path data = FPZ_DATA_DIR;
 
 fs::path fresh(const std::string& name) {
-  const fs::path f = fs::temp_directory_path() / ("fpz_sweep_test_" + std::to_string(::getpid())) / name;
-  fs::remove_all(f);
+  const fs::path f = fpz::test::fresh_path(name);
   fs::create_directories(f);
   return f;
-}
-
-std::string content(const fs::path& file) {
-  std::ostringstream s;
-  s << std::ifstream(file, std::ios::binary).rdbuf();
-  return s.str();
 }
 
 fs::path write(const fs::path& file, const std::string& text) {
@@ -156,7 +149,8 @@ TEST(Sweep, EveryRunIsThatOfItsScene) {
   RunRequest alone;
   alone.folder = folder / "alone";
   (void)run_scene(sweep.runs[3].scene, alone);
-  EXPECT_EQ(content(folder / "alone/history.csv"), content(folder / "out/plane_stress/-0.1/history.csv"));
+  EXPECT_EQ(fpz::test::text_of(folder / "alone/history.csv"),
+            fpz::test::text_of(folder / "out/plane_stress/-0.1/history.csv"));
   // The table has the figures of the histories, in the order of the sweep.
   const fpz::io::Table t = fpz::io::read_csv(folder / "out/sweep.csv");
   ASSERT_EQ(t.rows(), 4u);
@@ -213,7 +207,8 @@ TEST(Sweep, AnInterruptedOneGoesOnBitForBit) {
   EXPECT_EQ(run(sweep, folder / "out").count(RunStatus::finished), 4u);
   (void)run(sweep, folder / "whole");
   for (const SweepRun& r : sweep.runs) {
-    EXPECT_EQ(content(folder / "out" / r.folder / "history.csv"), content(folder / "whole" / r.folder / "history.csv"));
+    EXPECT_EQ(fpz::test::text_of(folder / "out" / r.folder / "history.csv"),
+              fpz::test::text_of(folder / "whole" / r.folder / "history.csv"));
   }
 }
 

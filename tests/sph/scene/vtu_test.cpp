@@ -6,6 +6,7 @@
 
 #include "fpz/io/input_error.hpp"
 #include "fpz/sph/scene/specimen.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace {
 
@@ -13,9 +14,8 @@ using namespace fpz::sph;
 namespace fs = std::filesystem;
 
 fs::path folder() {
-  const fs::path f = fs::temp_directory_path() / ("fpz_vtu_test_" + std::to_string(::getpid()));
-  fs::create_directories(f);
-  return f;
+  static const fpz::test::TemporaryFolder all;
+  return all.path();
 }
 
 PointCloud cloud() {

@@ -1,0 +1,18 @@
+# What the tests of the programs from outside share: a fresh folder WORK with an empty folder in it, and expect().
+file(REMOVE_RECURSE "${WORK}")
+file(MAKE_DIRECTORY "${WORK}/empty")
+cmake_path(GET PROGRAM FILENAME program_name)
+
+# expect(<status> <text that the output must contain or ""> <argument>...)
+function(expect status text)
+  execute_process(COMMAND "${PROGRAM}" ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE out ERROR_VARIABLE err)
+  if(NOT result EQUAL status)
+    message(SEND_ERROR "${program_name} ${ARGN}: exit status ${result}, not ${status}\n${out}${err}")
+  endif()
+  if(NOT text STREQUAL "")
+    string(FIND "${out}${err}" "${text}" found)
+    if(found EQUAL -1)
+      message(SEND_ERROR "${program_name} ${ARGN}: no \"${text}\" in\n${out}${err}")
+    endif()
+  endif()
+endfunction()
