@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "fpz/io/input_error.hpp"
-#include "fpz/sph/scene/run.hpp"
+#include "fpz/specimen/run.hpp"
 
 namespace fpz::sph::report {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "fpz/io/csv.hpp"
 #include "fpz/io/json_locator.hpp"
-#include "fpz/sph/scene/scene_file.hpp"
-#include "fpz/sph/scene/vtu.hpp"
+#include "fpz/specimen/scene_file.hpp"
+#include "fpz/specimen/vtu.hpp"
 
 namespace fpz::sph::report {
 

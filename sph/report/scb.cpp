@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "beam_reference.hpp"
-#include "fpz/sph/scene/run.hpp"
+#include "fpz/specimen/run.hpp"
 #include "sections.hpp"
 #include "text.hpp"
 

@@ -1,0 +1,23 @@
+// What a run will take, from a short one.
+#pragma once
+
+#include <string>
+
+#include "fpz/specimen/run.hpp"
+
+namespace fpz::sph {
+
+struct Estimate {
+  Schedule schedule;
+  long long likely_steps = 0;  ///< to stop.deflection at the fastest prescribed speed, else all
+  double step_seconds = 0.0;   ///< wall time of one step, uncracked
+  double memory = 0.0;         ///< bytes, resident now
+  double disk = 0.0;           ///< bytes of frames and checkpoint
+  double mean_neighbours = 0.0;
+};
+
+/// Runs the specimen for about half a second.
+[[nodiscard]] Estimate estimate(const SceneFile& scene, const Specimen& specimen, int threads);
+[[nodiscard]] std::string estimate_text(const SceneFile& scene, const Specimen& specimen, const Estimate& e);
+
+}  // namespace fpz::sph

@@ -1,0 +1,26 @@
+// Pictures of a run from its files, and of a scene before it runs.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "fpz/specimen/specimen.hpp"
+
+namespace fpz::sph {
+
+struct PictureOutcome {
+  std::vector<std::filesystem::path> files;
+  std::vector<std::string> warnings;
+};
+
+/// load_deflection, energies, damage (maps at the scene's picture loads) and velocity (horizontal, last frame), as PNG
+/// and SVG, from history.csv, frames.pvd and scene.json in the folder. Without gnuplot: a warning. Throws
+/// io::InputError when the folder holds no run, io::OutputError when pictures are in the way and not `force`.
+[[nodiscard]] PictureOutcome draw_run(const std::filesystem::path& folder, bool force);
+
+/// scene: the particles coloured by boundary group, the outline, notches and gauges.
+[[nodiscard]] PictureOutcome draw_scene(const SceneFile& scene, const Specimen& specimen,
+                                        const std::filesystem::path& folder, bool force);
+
+}  // namespace fpz::sph

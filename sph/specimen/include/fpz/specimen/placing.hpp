@@ -1,0 +1,43 @@
+// Puts particles into a body and boundary particles on its surface.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "fpz/sph/arrangement.hpp"
+#include "fpz/specimen/geometry.hpp"
+
+namespace fpz::sph {
+
+/// How the particles of the specimen lie.
+struct Pattern {
+  enum class Kind : std::uint8_t {
+    lattice,  ///< squares, turned by `angle` about `origin` (a corner of a cell)
+    sheared,  ///< rows parallel to x, each shifted so that columns follow a direction `angle` away from y
+    rings     ///< concentric rings of a disc, half disc or ring
+  };
+  Kind kind = Kind::lattice;
+  double angle = 0.0;  ///< radian, counter-clockwise
+  Point origin = Point::Zero();
+  bool fit = false;  ///< lattice in a rectangle: cells stretched a little so that whole ones fill it (angle 0)
+};
+
+/// Particles of the specimen. All have one volume (rings: one per ring), such that the sum is the area of the body
+/// exactly. `spacing` is the wanted distance. Throws std::invalid_argument when the pattern does not suit the shape or
+/// no particle fits.
+[[nodiscard]] Arrangement<2> place_specimen(const Body& body, const Pattern& pattern, double spacing);
+
+/// A roller or platen: columns of particles on the surface.
+struct Platen {
+  Point at = Point::Zero();         ///< on the surface
+  Point direction = Point::Zero();  ///< outward, any length but 0
+  double width = 0.0;               ///< m; at least one column
+  int layers = 3;
+  bool follow_surface = true;  ///< every column begins on the surface; else all where the outermost does
+};
+
+/// Adds the particles of a platen as group `group`. Throws std::invalid_argument when a column misses the body.
+void place_platen(Arrangement<2>& arrangement, const Shape& shape, const Platen& platen, int group);
+
+}  // namespace fpz::sph

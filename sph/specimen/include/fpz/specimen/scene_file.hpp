@@ -1,0 +1,117 @@
+// A scene: what a fracture test of a specimen consists of, as read from a JSON file (docs/scenes.md).
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "fpz/io/json_locator.hpp"
+#include "fpz/parameters.hpp"
+#include "fpz/sph/group.hpp"
+#include "fpz/sph/options.hpp"
+#include "fpz/specimen/placing.hpp"
+#include "fpz/specimen/toughness.hpp"
+
+namespace fpz::sph {
+
+/// Particles from a file instead of a pattern (docs/scenes.md, "Particles from a file").
+struct ParticleFile {
+  std::filesystem::path file;
+};
+
+/// A group of boundary particles and how it moves.
+struct Boundary {
+  std::string name;
+  std::optional<Platen> platen;  ///< none: its particles come from the particle file
+  std::array<std::optional<Motion>, 2> velocity;
+  bool elastic = true;
+};
+
+/// Some particles of the undeformed body: a boundary group, those around a point (the nearest one when none is within
+/// the radius), or those in a box.
+struct Site {
+  std::string group;
+  Point centre = Point::Zero();
+  double radius = 0.0;
+  std::optional<Rectangle> box;
+};
+
+/// Force by which boundary groups are held, in a direction. N.
+struct ForceGauge {
+  std::vector<std::string> groups;
+  Point direction = Point::Zero();
+};
+/// Mean displacement of a site, less that of another one, in a direction. m.
+struct DisplacementGauge {
+  Site of;
+  std::vector<Site> relative_to;  ///< the mean of these; none: space
+  Point direction = Point::Zero();
+};
+/// Mean stress of a site. Pa.
+struct StressGauge {
+  Site of;
+  int component = 0;  ///< xx, yy, xy
+};
+using Gauge = std::variant<ForceGauge, DisplacementGauge, StressGauge>;
+
+/// When a run ends. The time always counts; the others when they are given.
+struct StopRules {
+  double time = 0.0;                 ///< s
+  std::optional<double> deflection;  ///< m
+  std::optional<double> load_below;  ///< fraction of the peak, once something has cracked
+  bool separation = false;           ///< the specimen is in two pieces
+};
+
+struct OutputRules {
+  int history_rows = 1000;        ///< over the whole time
+  int frames = 40;                ///< VTU files over the whole time; 0: none but those at `frames_at`
+  std::vector<double> frames_at;  ///< deflections, m, at which one more is written
+  std::vector<double> picture_loads = {1.0, -0.7, -0.4,
+                                       -0.1};  ///< moments drawn: fractions of the peak load, negative after it
+  double checkpoint_seconds = 60.0;            ///< of wall time; 0: none
+  bool pictures = true;
+};
+
+struct SceneFile {
+  std::string name;
+  std::string description;
+  std::string material_name;
+  Parameters parameters;  ///< rve_length is 0: method.rve_length decides
+  Setting setting = Setting::plane_strain;
+  double thickness = 0.0;  ///< m
+  double spacing = 0.0;    ///< m
+  Body body;
+  Pattern pattern;
+  std::optional<ParticleFile> particles;
+  std::vector<Boundary> boundaries;
+  Options<2> options;
+  std::map<std::string, Gauge> gauges;  ///< "load" and "deflection" are always there
+  std::optional<SemicircularBending> toughness;
+  StopRules stop;
+  OutputRules output;
+
+  std::vector<std::string> warnings;  ///< doubtful but admissible
+  std::string text;  ///< the complete scene as JSON, overrides applied, material inline: reads back as the same scene
+};
+
+/// `path=value`, as in "method.courant=0.3" or "notches[0].angle_deg=30". The value is JSON; anything else is a string.
+using Overrides = std::vector<std::string>;
+
+/// Reads a scene. Throws io::InputError with all problems, each with file, line, key path and nearest valid name.
+[[nodiscard]] SceneFile read_scene(const std::filesystem::path& file, const Overrides& overrides = {});
+[[nodiscard]] SceneFile parse_scene(std::string_view text, const std::filesystem::path& origin,
+                                    const Overrides& overrides = {});
+
+/// Sets one entry of a JSON tree; members that do not exist are added. Problems are added for a malformed override or a
+/// path that leads through something else than objects and arrays.
+void apply_override(io::JsonValue& root, const std::string& assignment, const std::string& file,
+                    io::Problems& problems);
+
+/// A tree as JSON text, two spaces per level, numbers as they were spelt.
+[[nodiscard]] std::string to_text(const io::JsonValue& root);
+
+}  // namespace fpz::sph

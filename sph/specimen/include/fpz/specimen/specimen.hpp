@@ -1,0 +1,52 @@
+// From a scene to something that runs: particles, groups, gauges bound to particles.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "fpz/specimen/crack.hpp"
+#include "fpz/specimen/scene_file.hpp"
+#include "fpz/specimen/vtu.hpp"
+#include "fpz/sph/simulation.hpp"
+
+namespace fpz::sph {
+
+/// A gauge that knows its particles. Value: force and displacement N and m, stress Pa.
+struct BoundGauge {
+  enum class Kind : unsigned char { force, displacement, stress } kind = Kind::force;
+  Point direction = Point::Zero();
+  int component = 0;
+  std::vector<std::size_t> groups;
+  std::vector<std::size_t> of;  ///< indices in the arrangement
+  std::vector<std::vector<std::size_t>> relative_to;
+};
+
+/// Everything that a run needs besides its output.
+struct Specimen {
+  Scene<2> setup;
+  std::map<std::string, BoundGauge> gauges;
+  double area = 0.0;  ///< of the specimen without boundary particles, m^2
+};
+
+/// Places the particles and binds the gauges. Throws io::InputError naming the scene when something does not fit.
+[[nodiscard]] Specimen make_specimen(const SceneFile& scene);
+
+/// Particles from a CSV (columns x, y; optional volume, group), .vtu or legacy .vtk file (point data volume, group).
+/// Without volumes all have spacing^2. Group -1 is the specimen, others are indices of boundaries.
+[[nodiscard]] Arrangement<2> read_particles(const std::filesystem::path& file, double spacing);
+
+/// Value of a gauge at the present step. Forces are for the whole thickness.
+[[nodiscard]] double measure(const BoundGauge& gauge, const Simulation<2>& run, double thickness);
+
+/// The particles of the specimen for the crack measures (without boundary particles).
+[[nodiscard]] std::vector<Spot> spots(const Simulation<2>& run, const Specimen& specimen);
+
+/// All particles with their fields for a VTU file, in the order of the arrangement: group, damage, crack_normal, jump,
+/// stress (xx, yy, xy), velocity, displacement, elastic_energy (J/m^3), dissipated_energy (per crack area, J/m^2).
+[[nodiscard]] PointCloud frame_of(const Simulation<2>& run, const Specimen& specimen);
+
+/// Size of the file of such a frame, about.
+[[nodiscard]] double frame_bytes(std::size_t particles);
+
+}  // namespace fpz::sph

@@ -1,0 +1,46 @@
+// The figures that sum up a run.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fpz/specimen/run.hpp"
+
+namespace fpz::sph {
+
+/// All in SI, forces and energies for the whole thickness. What cannot be told is NaN (null in the file).
+struct Findings {
+  double peak_load = 0.0, deflection_at_peak = 0.0;
+  double stiffness = 0.0;              ///< slope of load over deflection between 10 and 40 % of the peak, before it
+  double crack_area = 0.0;             ///< opened_length() times thickness, m^2
+  double fracture_energy_ratio = 0.0;  ///< dissipated by fracture over crack_area times G
+  double fracture_energy = 0.0;        ///< G = tensile_strength delta0, J/m^2
+  std::optional<StressIntensity> toughness;  ///< at the peak load; none where the scene does not say how
+  double kinetic_ratio = 0.0;        ///< largest kinetic over (elastic + fracture) energy between half the peak and it
+  double kinetic_ratio_after = 0.0;  ///< the same after the peak
+  double imbalance = 0.0;            ///< largest |load - support| over the peak, between half the peak and it
+  double balance_error = 0.0;        ///< largest error of the energy balance over the largest external work
+};
+
+[[nodiscard]] Findings findings(const SceneFile& scene, const History& history, double opened);
+
+/// What a person must know before using the result: not quasi-static, balance drifts, damping, mass scaling.
+[[nodiscard]] std::vector<std::string> warnings_of(const SceneFile& scene, const History& history, const Findings& f);
+
+/// The main figures in a few lines.
+[[nodiscard]] std::string report_of(const Findings& f);
+
+/// The text of summary.json.
+struct SummaryInput {
+  const SceneFile& scene;
+  const Specimen& specimen;
+  const Simulation<2>& run;
+  const RunResult& result;
+  const Findings& findings;
+  const std::vector<CrackPath>& paths;
+  const std::vector<double>& pieces;
+};
+[[nodiscard]] std::string summary_text(const SummaryInput& input);
+
+}  // namespace fpz::sph

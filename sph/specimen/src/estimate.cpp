@@ -1,0 +1,85 @@
+#include "fpz/specimen/estimate.hpp"
+
+#include <sys/resource.h>
+
+#include <chrono>
+#include <cmath>
+#include <sstream>
+
+#include "fpz/io/input_error.hpp"
+
+namespace fpz::sph {
+namespace {
+
+double seconds(std::chrono::steady_clock::time_point since) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - since).count();
+}
+
+/// Steps until the fastest boundary has moved as far as the deflection at which the run stops.
+long long steps_to_deflection(const SceneFile& scene, double time_step) {
+  double time = scene.stop.time;
+  double speed = 0.0, ramp = 0.0;
+  for (const Boundary& b : scene.boundaries) {
+    for (const auto& v : b.velocity) {
+      if (v && std::abs(v->speed) > speed) speed = std::abs(v->speed), ramp = v->ramp;
+    }
+  }
+  if (scene.stop.deflection && speed > 0.0) time = std::min(time, *scene.stop.deflection / speed + 0.5 * ramp);
+  return std::llround(std::ceil(time / time_step));
+}
+
+}  // namespace
+
+Estimate estimate(const SceneFile& scene, const Specimen& specimen, int threads) {
+  Specimen own = specimen;
+  if (threads > 0) own.setup.options.threads = threads;
+  Simulation<2> run(own.setup);
+  Estimate e;
+  e.schedule = schedule_of(scene, run.time_step());
+  e.likely_steps = steps_to_deflection(scene, run.time_step());
+  e.mean_neighbours = run.mean_neighbours();
+  const auto step = [&] {
+    if (const Outcome o = run.step(); !o.ok())
+      throw io::InputError(scene.name + ": the first steps fail: " + o.message());
+  };
+  for (int k = 0; k < 3; ++k) step();  // warm
+  const auto start = std::chrono::steady_clock::now();
+  long long n = 0;
+  while (seconds(start) < 0.5) {
+    step();
+    ++n;
+  }
+  e.step_seconds = seconds(start) / static_cast<double>(n);
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  e.memory = 1024.0 * static_cast<double>(usage.ru_maxrss);
+  e.disk =
+      frame_bytes(run.particles().count) * (scene.output.frames + 6.0) + static_cast<double>(run.snapshot().size());
+  return e;
+}
+
+std::string estimate_text(const SceneFile& scene, const Specimen& specimen, const Estimate& e) {
+  const double count = static_cast<double>(specimen.setup.arrangement.size());
+  std::ostringstream s;
+  s.precision(3);
+  s << "  particles         " << specimen.setup.arrangement.size() << " (" << e.mean_neighbours << " neighbours each)\n"
+    << "  specimen area     " << 1e6 * specimen.area << " mm^2\n"
+    << "  time step         " << e.schedule.time_step << " s, row every " << e.schedule.row_every
+    << " steps, frame every " << e.schedule.frame_every << "\n"
+    << "  steps             at most " << e.schedule.steps;
+  if (e.likely_steps < e.schedule.steps) s << ", about " << e.likely_steps << " to stop.deflection";
+  s << "\n  speed             " << 1e-6 * count / e.step_seconds << " million particle-steps/s (uncracked)\n"
+    << "  time              about " << e.step_seconds * static_cast<double>(e.likely_steps)
+    << " s or less (cracked particles cost more; the load may drop earlier)\n"
+    << "  memory            " << e.memory / 1048576.0 << " MiB\n"
+    << "  disk              " << e.disk / 1048576.0 << " MiB\n"
+    << "  gauges            ";
+  for (const auto& [name, g] : specimen.gauges) s << name << " ";
+  s << "\n";
+  if (scene.options.damping > 0.0 || scene.options.mass_scale > 1.0) {
+    s << "  note              damping " << scene.options.damping << ", mass_scale " << scene.options.mass_scale << "\n";
+  }
+  return s.str();
+}
+
+}  // namespace fpz::sph

@@ -1,0 +1,211 @@
+#include "fpz/specimen/geometry.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace fpz::sph {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+template <class... F>
+struct Overload : F... {
+  using F::operator()...;
+};
+
+using Interval = std::pair<double, double>;
+/// Disjoint, ascending.
+using Intervals = std::vector<Interval>;
+
+Intervals chord(const Point& centre, double radius, double y) {
+  const double square = radius * radius - (y - centre[1]) * (y - centre[1]);
+  if (square <= 0.0) return {};
+  return {{centre[0] - std::sqrt(square), centre[0] + std::sqrt(square)}};
+}
+
+Intervals chord(const std::vector<Point>& polygon, double y) {
+  std::vector<double> x;
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    const Point& a = polygon[k];
+    const Point& b = polygon[(k + 1) % polygon.size()];
+    if ((a[1] <= y) != (b[1] <= y)) x.push_back(a[0] + (b[0] - a[0]) * (y - a[1]) / (b[1] - a[1]));
+  }
+  std::sort(x.begin(), x.end());
+  Intervals all;
+  for (std::size_t k = 0; k + 1 < x.size(); k += 2) all.emplace_back(x[k], x[k + 1]);
+  return all;
+}
+
+Intervals minus(const Intervals& a, const Intervals& b) {
+  Intervals rest = a;
+  for (const Interval& hole : b) {
+    Intervals next;
+    for (const Interval& piece : rest) {
+      if (hole.first > piece.first) next.emplace_back(piece.first, std::min(piece.second, hole.first));
+      if (hole.second < piece.second) next.emplace_back(std::max(piece.first, hole.second), piece.second);
+    }
+    std::erase_if(next, [](const Interval& i) { return i.second <= i.first; });
+    rest.swap(next);
+  }
+  return rest;
+}
+
+/// Where the line at height y is inside the shape.
+Intervals chord(const Shape& shape, double y) {
+  return std::visit(
+      Overload{[&](const Rectangle& r) -> Intervals {
+                 if (y < r.low[1] || y > r.high[1]) return {};
+                 return {{r.low[0], r.high[0]}};
+               },
+               [&](const Disc& d) { return chord(d.centre, d.radius, y); },
+               [&](const HalfDisc& d) -> Intervals {
+                 if (y < d.centre[1]) return {};
+                 return chord(d.centre, d.radius, y);
+               },
+               [&](const Ring& r) { return minus(chord(r.centre, r.outer, y), chord(r.centre, r.inner, y)); },
+               [&](const Polygon& p) { return chord(p.corners, y); }},
+      shape);
+}
+
+std::vector<Point> arc(const Point& centre, double radius, double from, double to) {
+  constexpr int pieces = 180;
+  std::vector<Point> line;
+  for (int k = 0; k <= pieces; ++k) {
+    const double angle = from + (to - from) * k / pieces;
+    line.emplace_back(centre[0] + radius * std::cos(angle), centre[1] + radius * std::sin(angle));
+  }
+  return line;
+}
+
+std::vector<Point> closed(std::vector<Point> line) {
+  if (!line.empty()) line.push_back(line.front());
+  return line;
+}
+
+std::vector<std::vector<Point>> outlines(const Shape& shape) {
+  using Lines = std::vector<std::vector<Point>>;
+  return std::visit(Overload{[](const Rectangle& r) -> Lines {
+                               return {closed({r.low, Point(r.high[0], r.low[1]), r.high, Point(r.low[0], r.high[1])})};
+                             },
+                             [](const Disc& d) -> Lines { return {arc(d.centre, d.radius, 0.0, 2.0 * pi)}; },
+                             [](const HalfDisc& d) -> Lines { return {closed(arc(d.centre, d.radius, 0.0, pi))}; },
+                             [](const Ring& r) -> Lines {
+                               return {arc(r.centre, r.outer, 0.0, 2.0 * pi), arc(r.centre, r.inner, 0.0, 2.0 * pi)};
+                             },
+                             [](const Polygon& p) -> Lines { return {closed(p.corners)}; }},
+                    shape);
+}
+
+}  // namespace
+
+bool contains(const Shape& shape, const Point& x) {
+  for (const auto& [left, right] : chord(shape, x[1])) {
+    if (x[0] >= left && x[0] <= right) return true;
+  }
+  return false;
+}
+
+bool contains(const Body& body, const Point& x) {
+  if (!contains(body.shape, x)) return false;
+  for (const Shape& hole : body.holes) {
+    if (contains(hole, x)) return false;
+  }
+  return std::none_of(body.notches.begin(), body.notches.end(),
+                      [&](const Notch& n) { return n.width > 0.0 && contains(Polygon{corners(n)}, x); });
+}
+
+std::pair<Point, Point> extent(const Shape& shape) {
+  const auto around = [](const Point& c, double r) {
+    return std::pair(Point(c[0] - r, c[1] - r), Point(c[0] + r, c[1] + r));
+  };
+  return std::visit(Overload{[](const Rectangle& r) { return std::pair(r.low, r.high); },
+                             [&](const Disc& d) { return around(d.centre, d.radius); },
+                             [&](const HalfDisc& d) {
+                               auto box = around(d.centre, d.radius);
+                               box.first[1] = d.centre[1];
+                               return box;
+                             },
+                             [&](const Ring& r) { return around(r.centre, r.outer); },
+                             [](const Polygon& p) {
+                               Point low = p.corners.front(), high = p.corners.front();
+                               for (const Point& c : p.corners) {
+                                 low = low.cwiseMin(c).eval();
+                                 high = high.cwiseMax(c).eval();
+                               }
+                               return std::pair(low, high);
+                             }},
+                    shape);
+}
+
+double area(const Shape& shape) {
+  return std::visit(Overload{[](const Rectangle& r) { return (r.high[0] - r.low[0]) * (r.high[1] - r.low[1]); },
+                             [](const Disc& d) { return pi * d.radius * d.radius; },
+                             [](const HalfDisc& d) { return 0.5 * pi * d.radius * d.radius; },
+                             [](const Ring& r) { return pi * (r.outer * r.outer - r.inner * r.inner); },
+                             [](const Polygon& p) {
+                               double twice = 0.0;
+                               for (std::size_t k = 0; k < p.corners.size(); ++k) {
+                                 const Point& a = p.corners[k];
+                                 const Point& b = p.corners[(k + 1) % p.corners.size()];
+                                 twice += a[0] * b[1] - b[0] * a[1];
+                               }
+                               return 0.5 * std::abs(twice);
+                             }},
+                    shape);
+}
+
+double area(const Body& body) {
+  std::vector<Shape> missing = body.holes;
+  for (const Notch& n : body.notches) {
+    if (n.width > 0.0) missing.emplace_back(Polygon{corners(n)});
+  }
+  if (missing.empty()) return area(body.shape);
+  // The removed part alone is summed up, so that its error is relative to itself; each removed shape only where no
+  // earlier one removed already.
+  double removed = 0.0;
+  constexpr int lines = 100'000;
+  for (std::size_t m = 0; m < missing.size(); ++m) {
+    const double low = std::max(extent(missing[m]).first[1], extent(body.shape).first[1]);
+    const double high = std::min(extent(missing[m]).second[1], extent(body.shape).second[1]);
+    const double step = (high - low) / lines;
+    for (int k = 0; k < lines && step > 0.0; ++k) {
+      const double y = low + (k + 0.5) * step;
+      const Intervals shape = chord(body.shape, y);
+      Intervals rest = minus(shape, minus(shape, chord(missing[m], y)));
+      for (std::size_t e = 0; e < m; ++e) rest = minus(rest, chord(missing[e], y));
+      for (const auto& [left, right] : rest) removed += (right - left) * step;
+    }
+  }
+  return area(body.shape) - removed;
+}
+
+Point along(const Notch& n) { return (n.tip - n.mouth).normalized(); }
+
+Point across(const Notch& n) {
+  const Point d = along(n);
+  return {-d[1], d[0]};
+}
+
+std::vector<Point> corners(const Notch& n) {
+  if (n.width <= 0.0) return {};
+  const Point side = 0.5 * n.width * across(n);
+  const Point back = n.mouth - n.width * along(n);
+  return {back - side, n.tip - side, n.tip + side, back + side};
+}
+
+Cut<2> cut_of(const Notch& n) { return {{n.mouth, n.tip}}; }
+
+std::vector<std::vector<Point>> outlines(const Body& body) {
+  std::vector<std::vector<Point>> lines = outlines(body.shape);
+  for (const Shape& hole : body.holes) {
+    for (auto& line : outlines(hole)) lines.push_back(std::move(line));
+  }
+  for (const Notch& n : body.notches) {
+    lines.push_back(n.width > 0.0 ? closed(corners(n)) : std::vector<Point>{n.mouth, n.tip});
+  }
+  return lines;
+}
+
+}  // namespace fpz::sph

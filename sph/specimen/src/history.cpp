@@ -1,0 +1,28 @@
+#include "fpz/specimen/history.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "fpz/io/problems.hpp"
+
+namespace fpz::sph {
+
+std::size_t History::column(std::string_view name) const {
+  const auto at = std::find(columns.begin(), columns.end(), name);
+  if (at == columns.end()) throw std::out_of_range("no column " + std::string(name));
+  return static_cast<std::size_t>(at - columns.begin());
+}
+
+std::string History::to_csv() const {
+  std::string text;
+  for (std::size_t c = 0; c < columns.size(); ++c) text += (c > 0 ? "," : "") + columns[c];
+  text += '\n';
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    text += std::isnan(values[k]) ? "nan" : io::exact(values[k]);
+    text += (k + 1) % columns.size() == 0 ? '\n' : ',';
+  }
+  return text;
+}
+
+}  // namespace fpz::sph

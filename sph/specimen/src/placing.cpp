@@ -1,0 +1,177 @@
+#include "fpz/specimen/placing.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+namespace fpz::sph {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr double most_particles = 2e8;
+
+/// One volume for all, with the area of the body as the sum.
+void share_area(Arrangement<2>& a, const Body& body) {
+  if (a.size() == 0) throw std::invalid_argument("the spacing is so large that no particle fits into the body");
+  std::fill(a.volume.begin(), a.volume.end(), area(body) / static_cast<double>(a.size()));
+}
+
+/// Number of cells nearest to length/spacing for which no particle lies on a cut: its side would be an accident.
+int cells(const Body& body, const Rectangle& r, int component, double spacing) {
+  const double length = r.high[component] - r.low[component];
+  const int nearest = std::max(1, static_cast<int>(std::lround(length / spacing)));
+  for (const int n : {nearest, nearest + 1, nearest - 1}) {
+    const double pitch = length / std::max(n, 1);
+    const bool clear = std::all_of(body.notches.begin(), body.notches.end(), [&](const Notch& notch) {
+      if (notch.width > 0.0 || std::abs(across(notch)[component]) < 1.0 - 1e-9) return true;
+      const double cell = (notch.mouth[component] - r.low[component]) / pitch;
+      return std::abs(cell - std::floor(cell) - 0.5) > 0.25;
+    });
+    if (n > 0 && clear) return n;
+  }
+  return nearest;
+}
+
+Arrangement<2> fitted_lattice(const Body& body, const Rectangle& r, double spacing) {
+  Arrangement<2> a;
+  a.spacing = spacing;
+  const int nx = cells(body, r, 0, spacing), ny = cells(body, r, 1, spacing);
+  const Point size = r.high - r.low;
+  for (int j = 0; j < ny; ++j) {
+    for (int i = 0; i < nx; ++i) {
+      const Point x(r.low[0] + (i + 0.5) * size[0] / nx, r.low[1] + (j + 0.5) * size[1] / ny);
+      if (contains(body, x)) a.add(x, 1.0);
+    }
+  }
+  share_area(a, body);
+  return a;
+}
+
+Arrangement<2> lattice(const Body& body, const Pattern& pattern, double spacing) {
+  Arrangement<2> a;
+  a.spacing = spacing;
+  const bool turned = pattern.kind == Pattern::Kind::lattice;
+  const Point u = turned ? Point(std::cos(pattern.angle), std::sin(pattern.angle)) : Point(1.0, 0.0);
+  const Point v = turned ? Point(-u[1], u[0]) : Point(-std::tan(pattern.angle), 1.0);
+  const auto [low, high] = extent(body.shape);
+  // Lattice coordinates of the corners of the extent bound those of the body.
+  Point first = Point::Constant(1e300), last = Point::Constant(-1e300);
+  for (const Point& corner : {low, high, Point(low[0], high[1]), Point(high[0], low[1])}) {
+    const Point d = corner - pattern.origin;
+    const double determinant = u[0] * v[1] - u[1] * v[0];
+    const Point c((d[0] * v[1] - d[1] * v[0]) / determinant / spacing,
+                  (u[0] * d[1] - u[1] * d[0]) / determinant / spacing);
+    first = first.cwiseMin(c).eval();
+    last = last.cwiseMax(c).eval();
+  }
+  for (auto j = static_cast<long>(std::floor(first[1])); j <= static_cast<long>(std::ceil(last[1])); ++j) {
+    for (auto i = static_cast<long>(std::floor(first[0])); i <= static_cast<long>(std::ceil(last[0])); ++i) {
+      const Point x =
+          pattern.origin + spacing * ((static_cast<double>(i) + 0.5) * u + (static_cast<double>(j) + 0.5) * v);
+      if (contains(body, x)) a.add(x, 1.0);
+    }
+  }
+  share_area(a, body);
+  return a;
+}
+
+/// Rings between two radii. Even numbers of particles, one at the top: symmetric about both axes. A disc has one
+/// particle in its middle.
+void add_rings(Arrangement<2>& a, const Body& body, const Point& centre, double inner, double outer, bool half) {
+  const double middle = inner > 0.0 ? inner : 0.5 * outer / (std::floor(outer / a.spacing) + 0.5);
+  const int rings = std::max(1, static_cast<int>(std::lround((outer - middle) / a.spacing)));
+  const double pitch = (outer - middle) / rings;
+  if (inner <= 0.0 && !half && contains(body, centre)) a.add(centre, pi * middle * middle);
+  for (int k = 0; k < rings; ++k) {
+    const double near = middle + k * pitch, far = near + pitch, radius = 0.5 * (near + far);
+    const int half_count = std::max(1, static_cast<int>(std::lround(pi * radius / a.spacing)));
+    const double volume = pi * (far * far - near * near) / (2.0 * half_count);
+    for (int i = 0; i < (half ? half_count : 2 * half_count); ++i) {
+      // A half disc has its particles half a step away from the flat side as well.
+      const double angle = (half ? 0.0 : 0.5 * pi) + pi * (i + 0.5) / half_count;
+      const Point x(centre[0] + radius * std::cos(angle), centre[1] + radius * std::sin(angle));
+      if (contains(body, x)) a.add(x, volume);
+    }
+  }
+}
+
+Arrangement<2> rings(const Body& body, double spacing) {
+  Arrangement<2> a;
+  a.spacing = spacing;
+  if (const auto* d = std::get_if<Disc>(&body.shape)) {
+    add_rings(a, body, d->centre, 0.0, d->radius, false);
+  } else if (const auto* h = std::get_if<HalfDisc>(&body.shape)) {
+    add_rings(a, body, h->centre, 0.0, h->radius, true);
+  } else if (const auto* r = std::get_if<Ring>(&body.shape)) {
+    add_rings(a, body, r->centre, r->inner, r->outer, false);
+  } else {
+    throw std::invalid_argument("rings need a disc, a half disc or a ring");
+  }
+  double sum = 0.0;
+  for (const double v : a.volume) sum += v;
+  if (a.size() == 0) throw std::invalid_argument("the spacing is so large that no particle fits into the body");
+  const double scale = area(body) / sum;  // 1 up to rounding, unless holes or notches cut the rings
+  for (double& v : a.volume) v *= scale;
+  return a;
+}
+
+/// Distance from `start` backwards along `d` to the first point of the shape; negative when there is none.
+double first_hit(const Shape& shape, const Point& start, const Point& d, double length) {
+  constexpr int steps = 4000;
+  double outside = 0.0;
+  for (int k = 1; k <= steps; ++k) {
+    double inside = length * k / steps;
+    if (!contains(shape, start - inside * d)) {
+      outside = inside;
+      continue;
+    }
+    for (int n = 0; n < 60; ++n) {
+      const double middle = 0.5 * (outside + inside);
+      (contains(shape, start - middle * d) ? inside : outside) = middle;
+    }
+    return inside;
+  }
+  return -1.0;
+}
+
+}  // namespace
+
+Arrangement<2> place_specimen(const Body& body, const Pattern& pattern, double spacing) {
+  const auto [low, high] = extent(body.shape);
+  if ((high - low).prod() / (spacing * spacing) > most_particles) {
+    throw std::invalid_argument("the spacing is so small that there would be more than 2e8 particles");
+  }
+  if (pattern.kind == Pattern::Kind::rings) return rings(body, spacing);
+  const auto* r = std::get_if<Rectangle>(&body.shape);
+  if (pattern.fit && r != nullptr && pattern.angle == 0.0) return fitted_lattice(body, *r, spacing);
+  return lattice(body, pattern, spacing);
+}
+
+void place_platen(Arrangement<2>& a, const Shape& shape, const Platen& platen, int group) {
+  const Point d = platen.direction.normalized();
+  const Point t(d[1], -d[0]);
+  const int columns = std::max(1, static_cast<int>(std::lround(platen.width / a.spacing)));
+  const double pitch = platen.width > 0.0 ? platen.width / columns : a.spacing;
+  const auto [low, high] = extent(shape);
+  const double reach = 2.0 * (high - low).norm();
+  std::vector<Point> feet;
+  double outermost = -1e300;
+  for (int k = 0; k < columns; ++k) {
+    const Point line = platen.at + (k + 0.5 - 0.5 * columns) * pitch * t;
+    const double hit = first_hit(shape, line + 0.5 * reach * d, d, reach);
+    if (hit < 0.0)
+      throw std::invalid_argument("the platen is wider than the body: one of its columns misses the surface");
+    const double height = 0.5 * reach - hit;
+    feet.push_back(line + height * d);
+    outermost = std::max(outermost, height);
+  }
+  for (Point& foot : feet) {
+    if (!platen.follow_surface) foot += (outermost - (foot - platen.at).dot(d)) * d;
+    for (int layer = 0; layer < platen.layers; ++layer) {
+      a.add(foot + (layer + 0.5) * a.spacing * d, pitch * a.spacing, group);
+    }
+  }
+}
+
+}  // namespace fpz::sph

@@ -1,0 +1,117 @@
+#include "fpz/specimen/scene_file.hpp"
+
+#include "fpz/io/material_file.hpp"
+#include "scene_reader.hpp"
+
+namespace fpz::sph {
+namespace {
+
+using namespace detail;
+namespace fs = std::filesystem;
+
+constexpr std::array<std::string_view, 17> root_keys = {
+    "name",    "description", "source", "material",   "setting", "thickness", "spacing", "shape", "holes",
+    "notches", "arrangement", "method", "boundaries", "gauges",  "toughness", "stop",    "output"};
+constexpr std::array<std::string_view, 2> settings = {"plane_strain", "plane_stress"};
+
+/// The material, and the file's content in place of its name.
+std::optional<io::Material> read_material_of(const InputReader& r, JsonValue& root) {
+  const Place top(root);
+  const JsonValue* given = r.required(top, "material");
+  if (given == nullptr) return std::nullopt;
+  const Place place(top, *given);
+  if (given->is(JsonValue::Kind::object)) return io::read_material(r, place, "inline");
+  if (!given->is(JsonValue::Kind::string)) {
+    r.problem(place,
+              "expected an object with the parameters or the name of a material file, found " + given->description());
+    return std::nullopt;
+  }
+  auto file = load_tree(r, place, "material file");
+  if (!file) return std::nullopt;
+  auto material =
+      io::read_material(InputReader(file->shown_as, r.limits(), r.problems()), Place(file->root), file->stem);
+  file->root.key = given->key;
+  *member(root, "material") = std::move(file->root);
+  return material;
+}
+
+void read_header(const InputReader& r, const Place& root, SceneFile& scene) {
+  const auto text = [&](std::string_view key, std::string& member) {
+    with(root, key, [&](const Place& p) { member = r.text(p, 10'000).value_or(""); });
+  };
+  scene.name = fs::path(r.file()).stem().string();
+  text("name", scene.name);
+  text("description", scene.description);
+  std::string source;
+  text("source", source);
+  with_required(r, root, "setting", [&](const Place& p) {
+    if (const auto k = choice(r, p, settings)) scene.setting = *k == 0 ? Setting::plane_strain : Setting::plane_stress;
+  });
+  with_required(r, root, "thickness", [&](const Place& p) { scene.thickness = r.positive(p).value_or(1.0); });
+  with_required(r, root, "spacing", [&](const Place& p) { scene.spacing = r.positive(p).value_or(1.0); });
+}
+
+/// Paths of other files as they are valid from anywhere: the scene's copy in the output folder reads the same.
+void make_paths_absolute(JsonValue& root, const SceneFile& scene) {
+  if (!scene.particles) return;
+  for (JsonValue& member : root.items) {
+    if (member.key != "arrangement") continue;
+    for (JsonValue& entry : member.items) {
+      if (entry.key == "file") entry.text = fs::absolute(scene.particles->file).lexically_normal().string();
+    }
+  }
+}
+
+SceneFile read_tree(JsonValue& root, const std::string& origin, const io::ReadLimits& limits, io::Problems& problems) {
+  SceneFile scene;
+  const InputReader r(origin, limits, problems);
+  if (!r.object(Place(root), "the keys of a scene")) return scene;
+  {
+    const Place top(root);
+    r.known_keys(top, root_keys);
+    read_header(r, top, scene);
+  }
+  const auto material = read_material_of(r, root);
+  const Place top(root);
+  with(top, "method", [&](const Place& p) { read_method(r, p, scene.options); });
+  read_body(r, top, scene);
+  read_arrangement(r, top, scene);
+  with_required(r, top, "boundaries", [&](const Place& p) { read_boundaries(r, p, scene); });
+  with_required(r, top, "gauges", [&](const Place& p) { read_gauges(r, p, scene); });
+  read_toughness(r, root, scene);
+  with_required(r, top, "stop", [&](const Place& p) { read_stop(r, p, scene.stop); });
+  with(top, "output", [&](const Place& p) { read_output(r, p, scene.output); });
+  if (material) {
+    scene.parameters = material->parameters;
+    scene.material_name = material->name;
+    scene.warnings = io::check_material(*material, scene.parameters, scene.setting, std::nullopt, problems);
+  }
+  make_paths_absolute(root, scene);
+  scene.text = to_text(root);
+  return scene;
+}
+
+}  // namespace
+
+SceneFile parse_scene(std::string_view text, const fs::path& origin, const Overrides& overrides) {
+  const io::ReadLimits limits;
+  io::Problems problems(limits.problems);
+  io::JsonValue root;
+  SceneFile scene;
+  if (io::parse_json(text, origin.string(), limits, problems, root)) {
+    for (const std::string& o : overrides) apply_override(root, o, origin.string(), problems);
+    scene = read_tree(root, origin.string(), limits, problems);
+  }
+  problems.throw_if_any();
+  return scene;
+}
+
+SceneFile read_scene(const fs::path& file, const Overrides& overrides) {
+  std::string text, error;
+  if (!io::load_text(file, io::FileKind::any, io::ReadLimits(), text, error)) {
+    throw io::InputError(file.string() + ": cannot be read: " + error);
+  }
+  return parse_scene(text, file, overrides);
+}
+
+}  // namespace fpz::sph

@@ -1,0 +1,64 @@
+// Parts of a scene from JSON. What is wrong becomes a problem at its place; a usable default is returned then.
+#pragma once
+
+#include <algorithm>
+#include <span>
+
+#include "fpz/io/input_reader.hpp"
+#include "fpz/specimen/scene_file.hpp"
+
+namespace fpz::sph::detail {
+
+using io::InputReader;
+using io::JsonValue;
+using io::Place;
+
+inline constexpr std::size_t longest_name = 200;
+
+/// Calls f(place) for a member when it is there.
+template <class F>
+void with(const Place& object, std::string_view key, F&& f) {
+  if (const JsonValue* v = object.value().find(key)) f(Place(object, *v));
+}
+
+/// Calls f(place) for a member; its absence is a problem.
+template <class F>
+void with_required(const InputReader& r, const Place& object, std::string_view key, F&& f) {
+  if (const JsonValue* v = r.required(object, key)) f(Place(object, *v));
+}
+
+/// The member of an object that may be changed, or null.
+[[nodiscard]] JsonValue* member(JsonValue& object, std::string_view key);
+
+/// A JSON file that a value names, relative to the file that is read.
+struct NamedTree {
+  JsonValue root;
+  std::string shown_as;  ///< its name in messages
+  std::string stem;
+};
+/// `what` is what it should be ("material file"); a file that cannot be read is a problem.
+[[nodiscard]] std::optional<NamedTree> load_tree(const InputReader& r, const Place& place, const char* what);
+
+/// Index of a string among the valid names.
+[[nodiscard]] std::optional<std::size_t> choice(const InputReader& r, const Place& place,
+                                                std::span<const std::string_view> valid);
+[[nodiscard]] std::optional<bool> boolean(const InputReader& r, const Place& place);
+[[nodiscard]] std::optional<Point> point(const InputReader& r, const Place& place);
+/// A point that is not (0, 0), made a unit vector.
+[[nodiscard]] std::optional<Point> direction(const InputReader& r, const Place& place);
+[[nodiscard]] std::optional<double> not_negative(const InputReader& r, const Place& place);
+
+/// The notch that `place` names by its index.
+[[nodiscard]] const Notch* notch_at(const InputReader& r, const Place& place, const SceneFile& scene);
+
+void read_body(const InputReader& r, const Place& root, SceneFile& scene);
+void read_arrangement(const InputReader& r, const Place& root, SceneFile& scene);
+void read_boundaries(const InputReader& r, const Place& place, SceneFile& scene);
+void read_method(const InputReader& r, const Place& place, Options<2>& options);
+void read_gauges(const InputReader& r, const Place& place, SceneFile& scene);
+/// After the body and the boundaries. The content of a file with factors takes the place of its name in `root`.
+void read_toughness(const InputReader& r, JsonValue& root, SceneFile& scene);
+void read_stop(const InputReader& r, const Place& place, StopRules& stop);
+void read_output(const InputReader& r, const Place& place, OutputRules& output);
+
+}  // namespace fpz::sph::detail

@@ -1,0 +1,262 @@
+#include "fpz/specimen/specimen.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <thread>
+
+#include "fpz/io/input_error.hpp"
+
+namespace fpz::sph {
+namespace {
+
+using io::InputError;
+
+[[noreturn]] void fail(const SceneFile& scene, const std::string& what) { throw InputError(scene.name + ": " + what); }
+
+Arrangement<2> place(const SceneFile& scene) {
+  Arrangement<2> a = scene.particles ? read_particles(scene.particles->file, scene.spacing)
+                                     : place_specimen(scene.body, scene.pattern, scene.spacing);
+  for (std::size_t b = 0; b < scene.boundaries.size(); ++b) {
+    const Boundary& boundary = scene.boundaries[b];
+    const int group = static_cast<int>(b);
+    if (!boundary.platen) {
+      if (std::find(a.group.begin(), a.group.end(), group) == a.group.end()) {
+        fail(scene, "boundary \"" + boundary.name + "\" has no \"at\", and no particle of the file has group " +
+                        std::to_string(b));
+      }
+      continue;
+    }
+    try {
+      place_platen(a, scene.body.shape, *boundary.platen, group);
+    } catch (const std::invalid_argument& e) {
+      fail(scene, "boundary \"" + boundary.name + "\": " + e.what());
+    }
+  }
+  return a;
+}
+
+std::vector<std::size_t> particles_of(const Site& site, const SceneFile& scene, const Arrangement<2>& a,
+                                      const std::string& gauge) {
+  std::vector<std::size_t> found;
+  if (!site.group.empty()) {
+    for (std::size_t b = 0; b < scene.boundaries.size(); ++b) {
+      if (scene.boundaries[b].name != site.group) continue;
+      for (std::size_t i = 0; i < a.size(); ++i) {
+        if (a.group[i] == static_cast<int>(b)) found.push_back(i);
+      }
+    }
+    return found;
+  }
+  double nearest = 1e300;
+  std::size_t closest = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (a.group[i] != Arrangement<2>::specimen) continue;
+    const Point& x = a.position[i];
+    if (site.box) {
+      if (((x - site.box->low).array() >= 0.0).all() && ((site.box->high - x).array() >= 0.0).all()) found.push_back(i);
+      continue;
+    }
+    const double d = (x - site.centre).norm();
+    if (d <= site.radius) found.push_back(i);
+    if (d < nearest) nearest = d, closest = i;
+  }
+  if (found.empty() && site.box) fail(scene, "gauge \"" + gauge + "\": no particle in its box");
+  // Particles equally near all count: which one is first would be an accident.
+  if (found.empty()) {
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      if (a.group[i] == Arrangement<2>::specimen &&
+          (a.position[i] - site.centre).norm() <= nearest + 1e-6 * a.spacing) {
+        found.push_back(i);
+      }
+    }
+    if (found.empty()) found.push_back(closest);
+  }
+  return found;
+}
+
+BoundGauge bind(const Gauge& gauge, const SceneFile& scene, const Arrangement<2>& a, const std::string& name) {
+  BoundGauge b;
+  if (const auto* force = std::get_if<ForceGauge>(&gauge)) {
+    b.direction = force->direction;
+    for (const std::string& wanted : force->groups) {
+      for (std::size_t k = 0; k < scene.boundaries.size(); ++k) {
+        if (scene.boundaries[k].name == wanted) b.groups.push_back(k);
+      }
+    }
+  } else if (const auto* displacement = std::get_if<DisplacementGauge>(&gauge)) {
+    b.kind = BoundGauge::Kind::displacement;
+    b.direction = displacement->direction;
+    b.of = particles_of(displacement->of, scene, a, name);
+    for (const Site& s : displacement->relative_to) b.relative_to.push_back(particles_of(s, scene, a, name));
+  } else {
+    const auto& stress = std::get<StressGauge>(gauge);
+    b.kind = BoundGauge::Kind::stress;
+    b.component = stress.component;
+    b.of = particles_of(stress.of, scene, a, name);
+  }
+  return b;
+}
+
+Point mean_displacement(const Simulation<2>& run, const std::vector<std::size_t>& ids) {
+  const Particles<2>& p = run.particles();
+  Point sum = Point::Zero();
+  for (const std::size_t id : ids) {
+    const std::size_t i = run.slot(id);
+    sum += Point(p.position[0][i] - p.start[0][i], p.position[1][i] - p.start[1][i]);
+  }
+  return sum / static_cast<double>(ids.size());
+}
+
+/// Rotation that takes the frame of a particle's stored tensors to space.
+Mat<double, 2, 2> to_space(const Simulation<2>& run, std::size_t i, bool updated) {
+  Mat<double, 2, 2> q = Mat<double, 2, 2>::Identity();
+  if (updated) return q;
+  const Particles<2>& p = run.particles();
+  q << p.rotation[0][i], -p.rotation[1][i], p.rotation[1][i], p.rotation[0][i];
+  return q;
+}
+
+Mat<double, 2, 2> stress_in_space(const Simulation<2>& run, std::size_t i, bool updated) {
+  const Mat<double, 2, 2> q = to_space(run, i, updated);
+  return q * to_matrix<double, 2>(run.particles().stress_of(i)) * q.transpose();
+}
+
+/// Threads that pay off: below some thousand particles each, waiting for each other costs more than it gains.
+int worthwhile_threads(std::size_t particles) {
+  const auto cores = static_cast<std::size_t>(std::max(1U, std::thread::hardware_concurrency()));
+  return static_cast<int>(std::clamp(particles / 4000, std::size_t{1}, cores));
+}
+
+bool is_updated(const Specimen& s) { return s.setup.options.configuration == Configuration::updated; }
+
+}  // namespace
+
+Specimen make_specimen(const SceneFile& scene) {
+  Specimen s;
+  try {
+    s.setup.arrangement = place(scene);
+  } catch (const std::invalid_argument& e) {
+    fail(scene, e.what());
+  }
+  for (const Notch& n : scene.body.notches) s.setup.arrangement.cuts.push_back(cut_of(n));
+  const Arrangement<2>& a = s.setup.arrangement;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (a.group[i] == Arrangement<2>::specimen) s.area += a.volume[i];
+  }
+  for (const Boundary& b : scene.boundaries) {
+    Group<2> group;
+    group.name = b.name;
+    group.motion = b.velocity;
+    group.elastic = b.elastic;
+    s.setup.groups.push_back(group);
+  }
+  s.setup.parameters = scene.parameters;
+  s.setup.setting = scene.setting;
+  s.setup.options = scene.options;
+  if (scene.options.threads == 0) s.setup.options.threads = worthwhile_threads(a.size());
+  const std::vector<std::string> wrong = problems(s.setup);
+  if (!wrong.empty()) {
+    std::string text;
+    for (const std::string& w : wrong) text += (text.empty() ? "" : "\n") + scene.name + ": " + w;
+    throw InputError(text);
+  }
+  for (const auto& [name, gauge] : scene.gauges) s.gauges.emplace(name, bind(gauge, scene, a, name));
+  return s;
+}
+
+double measure(const BoundGauge& g, const Simulation<2>& run, double thickness) {
+  if (g.kind == BoundGauge::Kind::force) {
+    Point sum = Point::Zero();
+    for (const std::size_t k : g.groups) sum += run.reaction(k);
+    return thickness * sum.dot(g.direction);
+  }
+  if (g.kind == BoundGauge::Kind::displacement) {
+    Point u = mean_displacement(run, g.of);
+    for (const auto& ids : g.relative_to) u -= mean_displacement(run, ids) / static_cast<double>(g.relative_to.size());
+    return u.dot(g.direction);
+  }
+  double sum = 0.0;
+  for (const std::size_t id : g.of) sum += run.particles().stress[static_cast<std::size_t>(g.component)][run.slot(id)];
+  return sum / static_cast<double>(g.of.size());
+}
+
+std::vector<Spot> spots(const Simulation<2>& run, const Specimen& specimen) {
+  const Particles<2>& p = run.particles();
+  const Arrangement<2>& a = specimen.setup.arrangement;
+  std::vector<Spot> all;
+  for (std::size_t id = 0; id < a.size(); ++id) {
+    if (a.group[id] != Arrangement<2>::specimen) continue;
+    const std::size_t i = run.slot(id);
+    Spot s{a.position[id], a.volume[id], 0.0, Point(1.0, 0.0)};
+    if (p.kind[i] == kind::cracked) {
+      s.damage = 1.0 - p.point[i].crack.integrity;
+      s.normal = Point(p.point[i].frame(0, 0), p.point[i].frame(0, 1));
+    }
+    all.push_back(s);
+  }
+  return all;
+}
+
+PointCloud frame_of(const Simulation<2>& run, const Specimen& specimen) {
+  const Particles<2>& p = run.particles();
+  const Arrangement<2>& a = specimen.setup.arrangement;
+  const Elasticity<double> bulk = make_material(specimen.setup.parameters, specimen.setup.setting).bulk;
+  const bool updated = is_updated(specimen);
+  PointCloud cloud;
+  cloud.time = run.time();
+  const auto add = [&](const char* name, int components, bool single = true) -> std::vector<double>& {
+    cloud.data.push_back({name, components, {}, single});
+    cloud.data.back().values.reserve(a.size() * static_cast<std::size_t>(components));
+    return cloud.data.back().values;
+  };
+  cloud.data.reserve(16);
+  auto& group = add("group", 1);
+  auto& volume = add("volume", 1);
+  auto& damage = add("damage", 1);
+  auto& normal = add("crack_normal", 3);
+  auto& jump = add("jump", 3);
+  auto& sxx = add("stress_xx", 1);
+  auto& syy = add("stress_yy", 1);
+  auto& sxy = add("stress_xy", 1);
+  auto& velocity = add("velocity", 3);
+  auto& displacement = add("displacement", 3, false);
+  auto& elastic = add("elastic_energy", 1);
+  auto& dissipated = add("dissipated_energy", 1);
+  auto& length = add("rve_length", 1);
+  const auto vector = [](std::vector<double>& values, double x, double y) { values.insert(values.end(), {x, y, 0.0}); };
+  for (std::size_t id = 0; id < a.size(); ++id) {
+    const std::size_t i = run.slot(id);
+    const bool cracked = p.kind[i] == kind::cracked;
+    const Mat<double, 2, 2> q = to_space(run, i, updated);
+    const Mat<double, 2, 2> stress = stress_in_space(run, i, updated);
+    vector(cloud.points, p.position[0][i], p.position[1][i]);
+    group.push_back(a.group[id]);
+    volume.push_back(a.volume[id]);
+    damage.push_back(cracked ? 1.0 - p.point[i].crack.integrity : 0.0);
+    const Mat<double, 2, 2> axes =
+        cracked ? Mat<double, 2, 2>(q * p.point[i].frame.transpose()) : Mat<double, 2, 2>(Mat<double, 2, 2>::Zero());
+    vector(normal, axes(0, 0), axes(1, 0));
+    const Point opening = cracked ? Point(axes * p.point[i].crack.jump) : Point(0.0, 0.0);
+    vector(jump, opening[0], opening[1]);
+    sxx.push_back(stress(0, 0));
+    syy.push_back(stress(1, 1));
+    sxy.push_back(stress(0, 1));
+    vector(velocity, p.velocity[0][i], p.velocity[1][i]);
+    vector(displacement, p.position[0][i] - p.start[0][i], p.position[1][i] - p.start[1][i]);
+    // sigma : C^-1 : sigma / 2 of the bulk.
+    const double trace = stress.trace();
+    const double square = stress.squaredNorm();
+    elastic.push_back((square - bulk.lambda / (2.0 * bulk.lambda + 2.0 * bulk.mu) * trace * trace) / (4.0 * bulk.mu));
+    dissipated.push_back(cracked ? p.point[i].crack.dissipated : 0.0);
+    length.push_back(cracked ? p.length[i] : 0.0);
+  }
+  return cloud;
+}
+
+double frame_bytes(std::size_t particles) {
+  constexpr double wide = 6.0 * 8.0, single = 18.0 * 4.0, cell = 17.0;  // bytes per particle
+  return (wide + single + cell) * static_cast<double>(particles) + 3000.0;
+}
+
+}  // namespace fpz::sph

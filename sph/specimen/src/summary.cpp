@@ -1,0 +1,220 @@
+#include "fpz/specimen/summary.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+namespace fpz::sph {
+namespace {
+
+using Json = nlohmann::ordered_json;
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+std::size_t peak_row(const History& h) {
+  std::size_t best = 0;
+  for (std::size_t r = 1; r < h.rows(); ++r) {
+    if (h.at(r, "load") > h.at(best, "load")) best = r;
+  }
+  return best;
+}
+
+double slope(const History& h, std::size_t peak) {
+  const double top = h.at(peak, "load");
+  double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
+  for (std::size_t r = 0; r < peak; ++r) {
+    const double load = h.at(r, "load"), u = h.at(r, "deflection");
+    if (load > 0.4 * top) break;
+    if (load < 0.1 * top) continue;
+    n += 1.0, x += u, y += load, xx += u * u, xy += u * load;
+  }
+  const double spread = n * xx - x * x;
+  return n >= 3.0 && spread > 0.0 ? (n * xy - x * y) / spread : nan;
+}
+
+std::string percent(double x) {
+  std::ostringstream s;
+  s.precision(3);
+  s << 100.0 * x << " %";
+  return s.str();
+}
+
+Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
+
+const char* name_of(Ending e) {
+  return e == Ending::finished ? "finished" : e == Ending::interrupted ? "interrupted" : "failed";
+}
+
+Json method_json(const Options<2>& o) {
+  const char* lengths[] = {"spacing", "band", "number"};
+  return {{"configuration", o.configuration == Configuration::reference ? "reference" : "updated"},
+          {"momentum", o.momentum == MomentumForm::adjoint ? "adjoint" : "paper"},
+          {"kernel", o.kernel == Kernel::cubic_spline ? "cubic_spline" : "wendland_c2"},
+          {"smoothing_ratio", o.smoothing_ratio},
+          {"courant", o.courant},
+          {"rve_length", o.rve_length.rule == RveLength::Rule::number
+                             ? Json(o.rve_length.value)
+                             : Json(lengths[static_cast<std::size_t>(o.rve_length.rule)])},
+          {"integrator", to_string(o.method)},
+          {"zero_energy_control", o.zero_energy_control},
+          {"damping", o.damping},
+          {"mass_scale", o.mass_scale},
+          {"release_integrity", o.release_integrity}};
+}
+
+}  // namespace
+
+Findings findings(const SceneFile& scene, const History& h, double opened) {
+  Findings f;
+  f.fracture_energy = scene.parameters.tensile_strength * scene.parameters.delta0;
+  f.crack_area = opened * scene.thickness;
+  if (h.rows() == 0) return f;
+  const std::size_t peak = peak_row(h);
+  f.peak_load = h.at(peak, "load");
+  f.deflection_at_peak = h.at(peak, "deflection");
+  f.stiffness = slope(h, peak);
+  if (scene.toughness) f.toughness = stress_intensity(*scene.toughness, scene.thickness, f.peak_load);
+  f.fracture_energy_ratio = f.crack_area > 0.0 ? h.last("energy_fracture") / (f.crack_area * f.fracture_energy) : nan;
+  const bool has_support = scene.gauges.contains("support");
+  f.imbalance = has_support ? 0.0 : nan;
+  double work = 0.0, error = 0.0;
+  for (std::size_t r = 0; r < h.rows(); ++r) {
+    work = std::max(work, std::abs(h.at(r, "energy_external")));
+    error = std::max(error, std::abs(h.at(r, "energy_error")));
+    const double load = h.at(r, "load");
+    const double internal = h.at(r, "energy_elastic") + h.at(r, "energy_fracture");
+    const double ratio = internal > 0.0 ? h.at(r, "energy_kinetic") / internal : 0.0;
+    if (r > peak) f.kinetic_ratio_after = std::max(f.kinetic_ratio_after, ratio);
+    if (r > peak || load < 0.5 * f.peak_load) continue;
+    f.kinetic_ratio = std::max(f.kinetic_ratio, ratio);
+    if (has_support) f.imbalance = std::max(f.imbalance, std::abs(load - h.at(r, "support")) / f.peak_load);
+  }
+  f.balance_error = work > 0.0 ? error / work : 0.0;
+  return f;
+}
+
+std::vector<std::string> warnings_of(const SceneFile& scene, const History& h, const Findings& f) {
+  std::vector<std::string> list;
+  if (h.rows() > 1 && peak_row(h) + 1 == h.rows()) {
+    list.push_back("the load was still rising at the end: the peak load is not reached");
+  }
+  if (f.kinetic_ratio > 0.02) {
+    list.push_back("not quasi-static: kinetic energy reaches " + percent(f.kinetic_ratio) +
+                   " of the internal energy before the peak; load more slowly or with a longer ramp");
+  }
+  if (f.kinetic_ratio_after > 0.1) {
+    list.push_back("the failure is dynamic: kinetic energy reaches " + percent(f.kinetic_ratio_after) +
+                   " of the internal energy after the peak; the load there includes inertia");
+  }
+  if (f.imbalance > 0.02) {
+    list.push_back("load and support differ by up to " + percent(f.imbalance) +
+                   " of the peak before it: inertia carries the difference; load more slowly");
+  }
+  if (f.balance_error > 0.01) {
+    list.push_back("the energy balance drifts by " + percent(f.balance_error) +
+                   " of the external work; a smaller \"courant\" may help");
+  }
+  const double work = h.rows() > 0 ? h.last("energy_external") : 0.0;
+  if (scene.options.damping > 0.0) {
+    list.push_back("local damping of " + percent(scene.options.damping) + " is on; it took " +
+                   percent(work > 0.0 ? h.last("energy_damping") / work : 0.0) + " of the external work");
+  }
+  if (scene.options.mass_scale > 1.0) {
+    std::ostringstream s;
+    s << "inertia is multiplied by " << scene.options.mass_scale
+      << " (mass_scale): times and velocities of free motion are not real";
+    list.push_back(s.str());
+  }
+  return list;
+}
+
+std::string report_of(const Findings& f) {
+  std::ostringstream s;
+  s.precision(4);
+  s << "  peak load " << f.peak_load << " N at " << 1e6 * f.deflection_at_peak << " um, stiffness " << f.stiffness
+    << " N/m\n"
+    << "  dissipated over crack area times G: " << f.fracture_energy_ratio << " (crack area " << 1e6 * f.crack_area
+    << " mm^2)\n";
+  if (f.toughness) s << "  toughness K_I " << f.toughness->K_I << ", K_II " << f.toughness->K_II << " Pa sqrt(m)\n";
+  s << "  kinetic over internal energy " << percent(f.kinetic_ratio) << " before the peak, "
+    << percent(f.kinetic_ratio_after) << " after; balance error " << percent(f.balance_error) << "\n";
+  return s.str();
+}
+
+std::string summary_text(const SummaryInput& in) {
+  const History& h = in.result.record.history;
+  const Findings& f = in.findings;
+  const Particles<2>& p = in.run.particles();
+  Json j;
+  j["scene"] = in.scene.name;
+  j["version"] = FPZ_VERSION;
+  j["compiler"] = __VERSION__;
+  j["status"] = name_of(in.result.ending);
+  j["reason"] = in.result.reason;
+  j["warnings"] = in.result.warnings;
+  j["units"] = "SI; forces and energies for the whole thickness";
+  j["peak_load"] = number(f.peak_load);
+  j["deflection_at_peak"] = number(f.deflection_at_peak);
+  j["stiffness"] = number(f.stiffness);
+  j["fracture_energy_ratio"] = number(f.fracture_energy_ratio);
+  j["crack_area"] = number(f.crack_area);
+  j["toughness_K_I"] = f.toughness ? number(f.toughness->K_I) : Json(nullptr);
+  j["toughness_K_II"] = f.toughness ? number(f.toughness->K_II) : Json(nullptr);
+  j["fracture_energy_G"] = f.fracture_energy;
+  Json cracks = Json::array();
+  for (const CrackPath& path : in.paths) {
+    cracks.push_back({{"length", path.length()},
+                      {"from", {path.points.front()[0], path.points.front()[1]}},
+                      {"to", {path.points.back()[0], path.points.back()[1]}}});
+  }
+  j["cracks"] = cracks;
+  j["pieces_area"] = in.pieces;
+  Json energies;
+  if (h.rows() > 0) {
+    for (const char* name :
+         {"external", "elastic", "kinetic", "fracture", "viscous", "damping", "artificial", "error"}) {
+      energies[name] = number(h.last(std::string("energy_") + name));
+    }
+  }
+  j["energies"] = energies;
+  j["energy_balance_error"] = number(f.balance_error);
+  j["kinetic_over_internal"] = {{"before_peak", number(f.kinetic_ratio)},
+                                {"after_peak", number(f.kinetic_ratio_after)}};
+  j["load_support_imbalance"] = number(f.imbalance);
+  j["material"] = {{"name", in.scene.material_name},
+                   {"young_modulus", in.scene.parameters.young_modulus},
+                   {"poisson_ratio", in.scene.parameters.poisson_ratio},
+                   {"density", in.scene.parameters.density},
+                   {"tensile_strength", in.scene.parameters.tensile_strength},
+                   {"cohesion", in.scene.parameters.cohesion},
+                   {"friction_angle_deg", in.scene.parameters.friction_angle_deg},
+                   {"dilation_angle_deg", in.scene.parameters.dilation_angle_deg},
+                   {"delta0", in.scene.parameters.delta0},
+                   {"normal_stiffness", in.scene.parameters.normal_stiffness},
+                   {"shear_stiffness", in.scene.parameters.shear_stiffness}};
+  j["setting"] = to_string(in.scene.setting);
+  j["method"] = method_json(in.scene.options);
+  j["spacing"] = in.scene.spacing;
+  j["thickness"] = in.scene.thickness;
+  j["specimen_area"] = in.specimen.area;
+  j["particles"] = p.count;
+  j["mean_neighbours"] = in.run.mean_neighbours();
+  j["neighbour_builds"] = in.run.neighbour_builds();
+  j["released_bonds"] = in.run.released_bonds();
+  j["damaged_particles"] = in.run.cracked();
+  j["time"] = in.run.time();
+  j["time_step"] = in.run.time_step();
+  j["steps"] = in.run.steps();
+  j["rows"] = h.rows();
+  j["frames"] = in.result.record.frames.size();
+  j["wall_seconds"] = in.result.record.wall_seconds;
+  j["stepping_seconds"] = in.result.record.stepping_seconds;
+  j["particle_steps_per_second"] =
+      in.result.record.stepping_seconds > 0.0
+          ? Json(static_cast<double>(p.count) * static_cast<double>(in.run.steps()) / in.result.record.stepping_seconds)
+          : Json(nullptr);
+  return j.dump(2) + "\n";
+}
+
+}  // namespace fpz::sph

@@ -1,0 +1,146 @@
+#include "fpz/specimen/run.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "fpz/io/csv.hpp"
+#include "fpz/io/input_error.hpp"
+#include "fpz/io/output.hpp"
+#include "fpz/specimen/summary.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace {
+
+using namespace fpz::sph;
+namespace fs = std::filesystem;
+
+const fs::path scenes = fs::path(FPZ_DATA_DIR) / "scenes";
+
+/// A small beam that cracks within about 3000 steps.
+SceneFile small_beam(const Overrides& more = {}) {
+  Overrides set = {"spacing=0.008",   "boundaries[0].velocity.y.speed=-0.05",
+                   "stop.time=2e-3",  "output.history_rows=200",
+                   "output.frames=4", "output.pictures=false"};
+  set.insert(set.end(), more.begin(), more.end());
+  return read_scene(scenes / "beam_3pb.json", set);
+}
+
+RunResult run(const SceneFile& scene, const fs::path& folder, long long steps = 0, bool resume = false) {
+  RunRequest request;
+  request.folder = folder;
+  request.most_steps = steps;
+  request.resume = resume;
+  return run_scene(scene, request);
+}
+
+TEST(Run, CoarseBeamCracksAndBalances) {
+  const SceneFile scene = small_beam();
+  const fs::path folder = fpz::test::fresh_path("beam");
+  const RunResult r = run(scene, folder);
+  EXPECT_EQ(r.ending, Ending::finished) << r.reason;
+  const fpz::io::Table t = fpz::io::read_csv(folder / "history.csv");
+  for (const char* name : {"step", "time", "deflection", "load", "support", "cmod", "energy_external", "energy_elastic",
+                           "energy_kinetic", "energy_fracture", "energy_viscous", "damaged_particles"}) {
+    EXPECT_NE(t.find(name), nullptr) << name;
+  }
+  EXPECT_GT(t.at("damaged_particles").back(), 4.0);
+  EXPECT_GT(t.at("cmod").back(), 0.0);
+  const Findings f = findings(scene, r.record.history, 0.05);
+  EXPECT_GT(f.peak_load, 1500.0);
+  EXPECT_LT(f.peak_load, 6000.0);
+  EXPECT_LT(f.balance_error, 0.01);
+  // The work of the load, from the load and the path of the loaded boundary, is the external work.
+  double work = 0.0;
+  const auto& load = t.at("load");
+  const auto& path = t.at("load_point");
+  for (std::size_t k = 1; k < load.size(); ++k) work += 0.5 * (load[k] + load[k - 1]) * (path[k] - path[k - 1]);
+  EXPECT_NEAR(work, t.at("energy_external").back(), 0.03 * work);
+  // Frames read back, the summary is there, nothing is left over.
+  const auto frames = read_pvd(folder / "frames.pvd");
+  ASSERT_GE(frames.size(), 5u);
+  const PointCloud last = read_vtk(folder / frames.back().file);
+  EXPECT_EQ(last.time, t.at("time").back());
+  EXPECT_NEAR(static_cast<double>(fs::file_size(folder / frames.back().file)), frame_bytes(last.size()),
+              0.05 * frame_bytes(last.size()));
+  for (const char* name :
+       {"damage", "crack_normal", "jump", "stress_xx", "velocity", "elastic_energy", "dissipated_energy"}) {
+    EXPECT_NE(last.find(name), nullptr) << name;
+  }
+  EXPECT_NE(fpz::test::text_of(folder / "summary.json").find("\"fracture_energy_ratio\""), std::string::npos);
+  EXPECT_FALSE(fs::exists(folder / "checkpoint.bin"));
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    EXPECT_NE(entry.path().filename().string()[0], '.');
+}
+
+TEST(Run, ResumesBitForBit) {
+  for (const char* configuration : {"reference", "updated"}) {
+    const SceneFile scene = small_beam({std::string("method.configuration=") + configuration, "stop.time=6e-4"});
+    const fs::path whole = fpz::test::fresh_path("whole"), parts = fpz::test::fresh_path("parts");
+    (void)run(scene, whole);
+    RunResult r = run(scene, parts, 137);
+    EXPECT_EQ(r.ending, Ending::interrupted);
+    int pieces = 1;
+    for (; r.ending == Ending::interrupted && pieces < 50; ++pieces) r = run(scene, parts, 137, true);
+    EXPECT_EQ(r.ending, Ending::finished) << r.reason;
+    EXPECT_GT(pieces, 3);
+    EXPECT_EQ(fpz::test::text_of(parts / "history.csv"), fpz::test::text_of(whole / "history.csv"));
+    EXPECT_EQ(fpz::test::text_of(parts / "frames.pvd"), fpz::test::text_of(whole / "frames.pvd"));
+    for (const Frame& f : read_pvd(whole / "frames.pvd"))
+      EXPECT_EQ(fpz::test::text_of(parts / f.file), fpz::test::text_of(whole / f.file));
+    EXPECT_EQ(fpz::test::text_of(parts / "crack.csv"), fpz::test::text_of(whole / "crack.csv"));
+  }
+}
+
+TEST(Run, ResumeRefusesWhatDoesNotBelong) {
+  const SceneFile scene = small_beam({"stop.time=6e-4"});
+  const fs::path folder = fpz::test::fresh_path("refuse");
+  EXPECT_THROW((void)run(scene, folder, 0, true), fpz::io::InputError);  // nothing there
+  (void)run(scene, folder, 50);
+  EXPECT_THROW((void)run(small_beam({"stop.time=7e-4"}), folder, 50, true), fpz::io::InputError);
+  EXPECT_THROW((void)run(scene, folder, 50), fpz::io::OutputError);  // files in the way
+  std::string bytes = fpz::test::text_of(folder / "checkpoint.bin");
+  bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
+  std::ofstream(folder / "checkpoint.bin", std::ios::binary) << bytes;
+  EXPECT_THROW((void)run(scene, folder, 50, true), fpz::io::InputError);
+}
+
+TEST(Run, StopsWhenToldTo) {
+  const RunResult deflection = run(small_beam({"stop.deflection=1e-5"}), fpz::test::fresh_path("deflection"));
+  EXPECT_NE(deflection.reason.find("stop.deflection"), std::string::npos);
+  EXPECT_GE(deflection.record.history.last("deflection"), 1e-5);
+  const RunResult drop = run(small_beam({"stop.load_below=0.9"}), fpz::test::fresh_path("drop"));
+  EXPECT_NE(drop.reason.find("stop.load_below"), std::string::npos);
+}
+
+TEST(Run, AnExplodingRunSaysSo) {
+  const RunResult r = run(small_beam({"boundaries[0].velocity.y={\"speed\": -1e5}", "stop={\"time\": 2e-3}"}),
+                          fpz::test::fresh_path("explodes"));
+  EXPECT_EQ(r.ending, Ending::failed);
+  EXPECT_NE(r.reason.find("particle"), std::string::npos);
+}
+
+TEST(Summary, WarnsWithoutBeingAsked) {
+  const SceneFile scene = small_beam({"method.damping=0.1", "method.mass_scale=4"});
+  History h;
+  h.columns = {"deflection",      "load",           "support",
+               "energy_external", "energy_elastic", "energy_kinetic",
+               "energy_fracture", "energy_damping", "energy_error"};
+  for (int k = 0; k <= 20; ++k) {
+    const double u = 1e-6 * k;
+    h.values.insert(h.values.end(), {u, 1e8 * u, 0.9e8 * u, 1.0, 0.5, 0.1, 0.1, 0.2, 0.05});
+  }
+  const Findings f = findings(scene, h, 0.0);
+  EXPECT_NEAR(f.stiffness, 1e8, 1.0);
+  EXPECT_TRUE(std::isnan(f.fracture_energy_ratio));
+  EXPECT_NEAR(f.imbalance, 0.1, 1e-9);
+  std::string all;
+  for (const std::string& w : warnings_of(scene, h, f)) all += w + "\n";
+  for (const char* expected : {"still rising", "not quasi-static", "load and support differ", "balance drifts",
+                               "local damping", "mass_scale"}) {
+    EXPECT_NE(all.find(expected), std::string::npos) << expected << "\n" << all;
+  }
+}
+
+}  // namespace

@@ -1,0 +1,137 @@
+#include "fpz/specimen/scene_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include "fpz/io/input_error.hpp"
+#include "fpz/specimen/specimen.hpp"
+
+namespace {
+
+using namespace fpz::sph;
+using fpz::io::InputError;
+
+const std::filesystem::path scenes = std::filesystem::path(FPZ_DATA_DIR) / "scenes";
+
+/// What reading complains about.
+std::string complaint(const std::filesystem::path& file, const Overrides& set) {
+  try {
+    (void)read_scene(file, set);
+  } catch (const InputError& e) {
+    return e.what();
+  }
+  return "";
+}
+
+std::string beam_complaint(const Overrides& set) { return complaint(scenes / "beam_3pb.json", set); }
+
+TEST(SceneFile, TheScenesOfThePaperAreValid) {
+  for (const char* name : {"beam_3pb", "scb", "ring"}) {
+    const SceneFile s = read_scene(scenes / (std::string(name) + ".json"), {"spacing=0.002"});
+    EXPECT_EQ(s.name, name);
+    const Specimen specimen = make_specimen(s);
+    EXPECT_NEAR(specimen.area, area(s.body), 1e-9 * specimen.area);
+    EXPECT_EQ(s.gauges.size(), specimen.gauges.size());
+  }
+}
+
+TEST(SceneFile, OverridesChangeAnyEntry) {
+  const SceneFile s =
+      read_scene(scenes / "beam_3pb.json",
+                 {"spacing=0.002", "method.configuration=updated", "notches[0].angle_deg=30", "method.rve_length=0.005",
+                  "boundaries[0].velocity.y.speed=-0.5", "stop.deflection=1e-5", "material=../materials/bellego.json"});
+  EXPECT_EQ(s.spacing, 0.002);
+  EXPECT_EQ(s.options.configuration, Configuration::updated);
+  EXPECT_NEAR(s.body.notches[0].tip[0], -0.004, 1e-12);
+  EXPECT_EQ(s.options.rve_length.rule, RveLength::Rule::number);
+  EXPECT_EQ(s.boundaries[0].velocity[1]->speed, -0.5);
+  EXPECT_EQ(*s.stop.deflection, 1e-5);
+  EXPECT_EQ(s.parameters.cohesion, 2.9e6);
+}
+
+TEST(SceneFile, OverridesAreCheckedLikeTheFile) {
+  EXPECT_NE(beam_complaint({"method.courrant=0.3"}).find("did you mean \"courant\"?"), std::string::npos);
+  EXPECT_NE(beam_complaint({"spacing=-1"}).find("spacing: -1: must be > 0"), std::string::npos);
+  EXPECT_NE(beam_complaint({"notches[3].length=1"}).find("there are 1 entries"), std::string::npos);
+  EXPECT_NE(beam_complaint({"spacing"}).find("expected path=value"), std::string::npos);
+  EXPECT_NE(beam_complaint({"spacing.x=1"}).find("where the scene has the number"), std::string::npos);
+  EXPECT_NE(beam_complaint({"method.kernel=cubic"}).find("did you mean \"cubic_spline\"?"), std::string::npos);
+}
+
+TEST(SceneFile, AllProblemsAreReportedWithTheirLines) {
+  const std::string text = R"({
+  "material": "../materials/johnstone.json",
+  "setting": "plain_strain",
+  "thickness": 0.02,
+  "spacing": "0.001",
+  "shape": {"type": "half_disk", "radius": 0.05},
+  "boundaries": [
+    {"name": "top", "at": [0, 0.05], "direction": [0, 0], "width": 0.004, "velocity": {"z": 0}}
+  ],
+  "gauges": {"load": {"force_on": "topp", "direction": [0, -1]}},
+  "stop": {"deflection": 1e-4}
+})";
+  std::string what;
+  try {
+    (void)parse_scene(text, scenes / "bad.json");
+  } catch (const InputError& e) {
+    what = e.what();
+  }
+  for (const char* expected :
+       {"bad.json:3: setting: unknown choice \"plain_strain\"; did you mean \"plane_strain\"?",
+        "bad.json:5: spacing: expected a number, found the string \"0.001\": write it without quotes",
+        "bad.json:6: shape.type: unknown choice \"half_disk\"; did you mean \"half_disc\"?",
+        "bad.json:8: boundaries[0].direction: is zero", "bad.json:8: boundaries[0].velocity.z: unknown key \"z\"",
+        "bad.json:10: gauges.load.force_on: there is no boundary \"topp\"; did you mean \"top\"?",
+        "bad.json:10: gauges: missing key \"deflection\"", "bad.json:11: stop: missing key \"time\""}) {
+    EXPECT_NE(what.find(expected), std::string::npos) << expected << "\nin\n" << what;
+  }
+}
+
+TEST(SceneFile, TheTextReadsBackAsTheSameScene) {
+  const SceneFile s = read_scene(scenes / "scb.json", {"notches[0].angle_deg=30", "name=a \"quoted\" one"});
+  const SceneFile again = parse_scene(s.text, "/elsewhere/scene.json");
+  EXPECT_EQ(again.text, s.text);
+  EXPECT_EQ(again.name, "a \"quoted\" one");
+  EXPECT_EQ(again.parameters.delta0, s.parameters.delta0);
+  const Specimen a = make_specimen(s), b = make_specimen(again);
+  ASSERT_EQ(a.setup.arrangement.size(), b.setup.arrangement.size());
+  for (std::size_t i = 0; i < a.setup.arrangement.size(); ++i) {
+    EXPECT_EQ(a.setup.arrangement.position[i], b.setup.arrangement.position[i]);
+  }
+}
+
+TEST(SceneFile, GaugesThatFindNothingAreRefused) {
+  const SceneFile s =
+      read_scene(scenes / "beam_3pb.json", {R"(gauges.far={"stress": "xx", "of": {"low": [5, 5], "high": [6, 6]}})"});
+  EXPECT_THROW((void)make_specimen(s), InputError);
+  EXPECT_NE(beam_complaint({R"(gauges.load={"stress": "xx", "of": "top"})"}).find("must measure a force"),
+            std::string::npos);
+  EXPECT_NE(beam_complaint({R"(gauges.time={"force_on": "top", "direction": [0, 1]})"}).find("exists already"),
+            std::string::npos);
+}
+
+TEST(SceneFile, NotchOpeningLooksAtBothFaces) {
+  const Specimen s = make_specimen(read_scene(scenes / "beam_3pb.json", {"notches[0].width=0"}));
+  const BoundGauge& cmod = s.gauges.at("cmod");
+  ASSERT_EQ(cmod.of.size(), 1u);
+  ASSERT_EQ(cmod.relative_to.at(0).size(), 1u);
+  const Point left = s.setup.arrangement.position[cmod.of[0]],
+              right = s.setup.arrangement.position[cmod.relative_to[0][0]];
+  EXPECT_NEAR((left - right).dot(cmod.direction), 0.004, 1e-12);
+}
+
+/// Particles interact around the tip of a notch but never across its faces, whatever its width and angle.
+TEST(SceneFile, NotchesOfAnyWidthSeparateTheirFaces) {
+  for (const char* width : {"0", "0.0005", "\"narrowest\""}) {
+    for (const int angle : {0, 15, 30, 45, 54, 60}) {
+      const SceneFile scene = read_scene(scenes / "scb.json", {"notches[0].angle_deg=" + std::to_string(angle),
+                                                               std::string("notches[0].width=") + width});
+      const Specimen s = make_specimen(scene);
+      ASSERT_EQ(s.setup.arrangement.cuts.size(), 1u);
+      EXPECT_EQ(s.setup.arrangement.cuts[0].corner[0], scene.body.notches[0].mouth);
+      EXPECT_EQ(s.setup.arrangement.cuts[0].corner[1], scene.body.notches[0].tip);
+    }
+  }
+}
+
+}  // namespace
