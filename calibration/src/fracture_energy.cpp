@@ -13,7 +13,6 @@
 namespace fpz::calibration {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180.0;
 /// exp(-k) at which nothing is left, for sums near 1.
 constexpr double complete_softening = 40.0;
 

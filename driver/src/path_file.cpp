@@ -254,7 +254,7 @@ class FileReader {
     const Place place(integrator, *v);
     const std::optional<std::string> name = reader_.text(place, longest_name);
     if (!name) return std::nullopt;
-    const std::optional<Method> method = method_from(*name);
+    const std::optional<Method> method = from_word<Method>(*name);
     if (!method) reader_.problem(place, "unknown integrator " + in_quotes(*name) + suggestion(*name, method_names));
     return method;
   }

@@ -1,6 +1,7 @@
 #include "fpz/io/material_file.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace fpz::io {
 namespace {
@@ -12,7 +13,7 @@ constexpr std::array<std::string_view, 4> text_keys = {"name", "source", "units"
 
 std::vector<std::string_view> all_keys() {
   std::vector<std::string_view> keys;
-  for (const MaterialKey& key : material_keys) keys.push_back(key.name);
+  for (const ParameterInfo<double>& key : material_keys) keys.push_back(key.name);
   keys.insert(keys.end(), text_keys.begin(), text_keys.end());
   return keys;
 }

@@ -8,8 +8,6 @@
 namespace fpz {
 namespace {
 
-constexpr double degree = 3.14159265358979323846 / 180.0;
-
 /// Shortest text that reads back as the same number, so that a message shows what was given.
 std::string exact(double x) {
   std::array<char, 32> text{};
@@ -33,25 +31,27 @@ double normal_modulus(const Parameters& p, Setting setting) {
 
 class Checker {
  public:
-  /// Records an error for each value that is not finite or not positive; true if the value may be used further.
-  bool positive(const char* field, double v) {
-    if (!finite(field, v)) return false;
-    return require(v > 0.0, field, v, "must be > 0");
-  }
+  bool finite(const std::string& field, double v) { return require(std::isfinite(v), field, v, "must be finite"); }
 
-  bool finite(const char* field, double v) { return require(std::isfinite(v), field, v, "must be finite"); }
-
-  bool require(bool holds, const char* field, double v, std::string constraint) {
+  bool require(bool holds, const std::string& field, double v, std::string constraint) {
     if (!holds) result.errors.push_back({field, v, std::move(constraint)});
     return holds;
   }
 
-  void warn(const char* field, double v, std::string text) { result.warnings.push_back({field, v, std::move(text)}); }
+  void warn(const std::string& field, double v, std::string text) {
+    result.warnings.push_back({field, v, std::move(text)});
+  }
 
   Validation result;
 };
 
 }  // namespace
+
+std::string Bounds::text() const {
+  std::string text = (lower_included ? ">= " : "> ") + exact(lower);
+  if (upper < unbounded) text += " and < " + exact(upper);
+  return text;
+}
 
 std::string Validation::report() const {
   std::string text;
@@ -87,31 +87,30 @@ double uniaxial_tensile_strength(const Parameters& p) {
 Validation validate(const Parameters& p, Setting setting) {
   Checker check;
 
-  // 1. Each value by itself, in the order of the struct.
-  const bool e_ok = check.positive("young_modulus", p.young_modulus);
-  const bool nu_ok = check.finite("poisson_ratio", p.poisson_ratio) &&
-                     check.require(p.poisson_ratio > -1.0 && p.poisson_ratio < 0.5, "poisson_ratio", p.poisson_ratio,
-                                   "must be > -1 and < 0.5");
-  check.positive("density", p.density);
-  const bool strength_ok = check.positive("tensile_strength", p.tensile_strength);
-  const bool cohesion_ok = check.positive("cohesion", p.cohesion);
-  const bool phi_ok = check.finite("friction_angle_deg", p.friction_angle_deg) &&
-                      check.require(p.friction_angle_deg > 0.0 && p.friction_angle_deg < 90.0, "friction_angle_deg",
-                                    p.friction_angle_deg, "must be > 0 and < 90");
-  const bool psi_ok =
-      check.finite("dilation_angle_deg", p.dilation_angle_deg) &&
-      check.require(p.dilation_angle_deg >= 0.0, "dilation_angle_deg", p.dilation_angle_deg, "must be >= 0");
-  const bool delta0_ok = check.positive("delta0", p.delta0);
-  check.positive("normal_stiffness", p.normal_stiffness);
-  check.positive("shear_stiffness", p.shear_stiffness);
-  const bool length_ok = check.positive("rve_length", p.rve_length);
+  // 1. Each value by itself, in the order of the table.
+  std::array<bool, parameter_table<double>.size()> sound{};
+  for (std::size_t k = 0; k < sound.size(); ++k) {
+    const ParameterInfo<double>& info = parameter_table<double>[k];
+    const std::string name(info.name);
+    sound[k] = check.finite(name, p.*info.member) &&
+               check.require(info.bounds.hold(p.*info.member), name, p.*info.member, "must be " + info.bounds.text());
+  }
+  const auto ok = [&sound](double Parameters::*member) {
+    for (std::size_t k = 0; k < sound.size(); ++k) {
+      if (parameter_table<double>[k].member == member) return sound[k];
+    }
+    return false;
+  };
+  const bool strength_ok = ok(&Parameters::tensile_strength);
+  const bool phi_ok = ok(&Parameters::friction_angle_deg);
+  const bool psi_ok = ok(&Parameters::dilation_angle_deg);
 
   // 2. Values against each other, where each of them makes sense.
   if (phi_ok && psi_ok) {
     check.require(p.dilation_angle_deg <= p.friction_angle_deg, "dilation_angle_deg", p.dilation_angle_deg,
                   "must be <= friction_angle_deg = " + exact(p.friction_angle_deg));
   }
-  bool surface_ok = strength_ok && cohesion_ok && phi_ok;
+  bool surface_ok = strength_ok && ok(&Parameters::cohesion) && phi_ok;
   if (surface_ok) {
     const double bound = p.tensile_strength * std::tan(p.friction_angle_deg * degree);
     surface_ok = check.require(p.cohesion > bound, "cohesion", p.cohesion,
@@ -119,7 +118,8 @@ Validation validate(const Parameters& p, Setting setting) {
   }
 
   // 3. Doubtful values.
-  if (e_ok && nu_ok && strength_ok && delta0_ok && length_ok) {
+  if (ok(&Parameters::young_modulus) && ok(&Parameters::poisson_ratio) && strength_ok && ok(&Parameters::delta0) &&
+      ok(&Parameters::rve_length)) {
     const double bound = snap_back_length(p, setting);
     if (p.rve_length >= bound) {
       const char* modulus = setting == Setting::plane_stress ? "E/(1 - nu^2)" : "(lambda + 2 mu)";

@@ -5,7 +5,6 @@
 namespace fpz::bench {
 namespace {
 
-constexpr double degree = 3.14159265358979323846 / 180.0;
 
 /// A random stress state that fails at load factor 1 (by bisection on the reference search over planes).
 template <int Dim>

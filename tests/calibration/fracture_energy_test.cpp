@@ -14,7 +14,6 @@
 namespace fpz::calibration {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180.0;
 
 std::vector<Parameters> tables() { return {test::table1(), test::table2(), test::table3()}; }
 

@@ -16,7 +16,6 @@ using fpz::Setting;
 using fpz::Validation;
 using fpz::Violation;
 
-constexpr double degree = 3.14159265358979323846 / 180.0;
 
 // One RVE length for all tables.
 Parameters table1() { return fpz::test::table1(4e-3); }

@@ -11,7 +11,6 @@
 namespace fpz::test {
 namespace {
 
-constexpr double degree = 3.14159265358979323846 / 180.0;
 
 std::vector<Parameters> all_tables() { return {table1(), table2(), table3()}; }
 

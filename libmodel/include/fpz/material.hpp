@@ -75,7 +75,6 @@ struct Material {
 template <class P>
 [[nodiscard]] CohesiveLaw<P> make_cohesive_law(const BasicParameters<P>& p) {
   using std::tan;
-  constexpr double degree = 3.14159265358979323846 / 180.0;
   CohesiveLaw<P> law;
   law.kn = p.normal_stiffness;
   law.ks = p.shear_stiffness;
@@ -110,7 +109,6 @@ template <class P>
 [[nodiscard]] Material<P> make_material(const BasicParameters<P>& p, Setting setting) {
   using std::cos;
   using std::sin;
-  constexpr double degree = 3.14159265358979323846 / 180.0;
   Material<P> m;
   m.setting = setting;
   m.bulk.nu = p.poisson_ratio;

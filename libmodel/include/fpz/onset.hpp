@@ -255,7 +255,6 @@ template <int Dim, class T, class P>
 template <int Dim, class T, class P>
 [[nodiscard]] Plane<T, Dim> scan_planes(const Material<P>& m, const Tensor<T, Dim>& stress, double resolution_deg,
                                         const Vec<double, 3>& preferred = Vec<double, 3>::Zero()) {
-  constexpr double degree = 3.14159265358979323846 / 180.0;
   const int steps = std::max(1, static_cast<int>(std::lround(180.0 / resolution_deg)));
   const Tensor<double, Dim> sv = convert<double>(stress);
   const auto lawv = values(m.law);

@@ -1,9 +1,6 @@
 // How an update is integrated, and what it reports.
 #pragma once
 
-#include <optional>
-#include <string_view>
-
 #include "fpz/types.hpp"
 
 namespace fpz {
@@ -17,25 +14,11 @@ enum class Method : std::uint8_t {
              ///< rate equations, events located
 };
 
-[[nodiscard]] constexpr const char* to_string(Method m) {
-  switch (m) {
-    case Method::paper:
-      return "paper";
-    case Method::implicit:
-      return "implicit";
-    case Method::accurate:
-      return "accurate";
-  }
-  return "unknown";
-}
-
-/// The integrator of that name, or nothing.
-[[nodiscard]] constexpr std::optional<Method> method_from(std::string_view name) {
-  for (const Method m : {Method::paper, Method::implicit, Method::accurate}) {
-    if (name == to_string(m)) return m;
-  }
-  return std::nullopt;
-}
+template <>
+struct Words<Method> {
+  static constexpr Word<Method> list[] = {
+      {Method::paper, "paper"}, {Method::implicit, "implicit"}, {Method::accurate, "accurate"}};
+};
 
 struct Options {
   Method method = Method::accurate;

@@ -1,7 +1,10 @@
 // Material parameters as a person states them, and their validation.
 #pragma once
 
+#include <array>
+#include <limits>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "fpz/types.hpp"
@@ -24,6 +27,61 @@ struct BasicParameters {
   T rve_length{};          ///< H, m
 };
 using Parameters = BasicParameters<double>;
+
+inline constexpr double unbounded = std::numeric_limits<double>::infinity();
+
+/// Values that a parameter may have: between `lower` and `upper`, themselves excluded unless said.
+struct Bounds {
+  double lower = 0.0;
+  double upper = unbounded;
+  bool lower_included = false;
+
+  [[nodiscard]] constexpr bool hold(double x) const { return (lower_included ? x >= lower : x > lower) && x < upper; }
+  /// "> 0 and < 90"
+  [[nodiscard]] std::string text() const;
+};
+
+/// What is met in tests of rock and concrete, from low to high, and what is out of the question beyond far_low and
+/// far_high. A value outside is nearly always one in another unit.
+struct Plausible {
+  double far_low = 0.0;
+  double low = 0.0;
+  double high = 0.0;
+  double far_high = 0.0;
+};
+
+/// One parameter: all that readers, checks, reports and tables know about it.
+template <class T>
+struct ParameterInfo {
+  std::string_view name;    ///< key in files and messages; the member of BasicParameters has the same name
+  std::string_view symbol;  ///< for tables and pictures
+  std::string_view unit;    ///< SI; angles in degrees
+  T BasicParameters<T>::*member;
+  Bounds bounds;
+  Plausible plausible;
+  bool of_material = true;  ///< false: belongs to the place of the material point, not to the material
+};
+
+/// The one list of the parameters, in the order of the struct. Constraints between parameters are in validate().
+// clang-format off
+template <class T>
+inline constexpr std::array<ParameterInfo<T>, 11> parameter_table = {{
+    {"young_modulus",      "E",        "Pa",    &BasicParameters<T>::young_modulus,      {},                    {2e7, 1e8, 1.5e11, 1e12}},
+    {"poisson_ratio",      "nu",       "",      &BasicParameters<T>::poisson_ratio,      {-1.0, 0.5},           {0.005, 0.05, 0.45, 0.5}},
+    {"density",            "rho",      "kg/m3", &BasicParameters<T>::density,            {},                    {300.0, 1000.0, 3500.0, 1e4}},
+    {"tensile_strength",   "sigma_t0", "Pa",    &BasicParameters<T>::tensile_strength,   {},                    {1e4, 5e4, 3e7, 1e8}},
+    {"cohesion",           "c0",       "Pa",    &BasicParameters<T>::cohesion,           {},                    {1e4, 5e4, 2e8, 1e9}},
+    {"friction_angle_deg", "phi",      "deg",   &BasicParameters<T>::friction_angle_deg, {0.0, 90.0},           {2.0, 10.0, 65.0, 85.0}},
+    {"dilation_angle_deg", "psi",      "deg",   &BasicParameters<T>::dilation_angle_deg, {0.0, unbounded, true}, {0.02, 0.5, 40.0, 85.0}},
+    {"delta0",             "delta0",   "m",     &BasicParameters<T>::delta0,             {},                    {1e-9, 3e-7, 3e-4, 2e-3}},
+    {"normal_stiffness",   "Kn",       "Pa/m",  &BasicParameters<T>::normal_stiffness,   {},                    {1e8, 1e11, 1e16, 1e19}},
+    {"shear_stiffness",    "Ks",       "Pa/m",  &BasicParameters<T>::shear_stiffness,    {},                    {1e7, 1e9, 1e16, 1e19}},
+    {"rve_length",         "H",        "m",     &BasicParameters<T>::rve_length,         {},                    {1e-6, 1e-5, 0.5, 10.0}, false},
+}};
+// clang-format on
+
+/// How many of them a material file states: the first ones of the table.
+inline constexpr std::size_t material_parameter_count = 10;
 
 /// One broken constraint (or, as a warning, one doubtful value).
 struct Violation {

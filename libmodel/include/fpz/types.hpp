@@ -7,8 +7,12 @@
 #include <cstdint>
 
 #include "fpz/scalar.hpp"
+#include "fpz/words.hpp"
 
 namespace fpz {
+
+/// One degree in radians.
+inline constexpr double degree = 3.14159265358979323846 / 180.0;
 
 /// Stored vectors and matrices: unaligned, so that a state has one size whatever the compiler's flags are.
 template <class T, int N>
@@ -38,33 +42,20 @@ enum class Status : std::uint8_t {
   invalid_input     ///< a NaN or infinite strain or state
 };
 
-[[nodiscard]] constexpr const char* to_string(Status s) {
-  switch (s) {
-    case Status::ok:
-      return "ok";
-    case Status::non_convergence:
-      return "non_convergence";
-    case Status::snap_back:
-      return "snap_back";
-    case Status::no_plastic_flow:
-      return "no_plastic_flow";
-    case Status::invalid_input:
-      return "invalid_input";
-  }
-  return "unknown";
-}
+template <>
+struct Words<Status> {
+  static constexpr Word<Status> list[] = {{Status::ok, "ok"},
+                                          {Status::non_convergence, "non_convergence"},
+                                          {Status::snap_back, "snap_back"},
+                                          {Status::no_plastic_flow, "no_plastic_flow"},
+                                          {Status::invalid_input, "invalid_input"}};
+};
 
-[[nodiscard]] constexpr const char* to_string(Setting s) {
-  switch (s) {
-    case Setting::plane_strain:
-      return "plane_strain";
-    case Setting::plane_stress:
-      return "plane_stress";
-    case Setting::three_d:
-      return "3d";
-  }
-  return "unknown";
-}
+template <>
+struct Words<Setting> {
+  static constexpr Word<Setting> list[] = {
+      {Setting::plane_strain, "plane_strain"}, {Setting::plane_stress, "plane_stress"}, {Setting::three_d, "3d"}};
+};
 
 /// The 3x3 (2x2) matrix of a symmetric tensor's components.
 template <class T, int Dim>

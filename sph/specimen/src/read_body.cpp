@@ -7,7 +7,6 @@
 namespace fpz::sph::detail {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180.0;
 
 using Keys = std::span<const std::string_view>;
 constexpr std::array<std::string_view, 5> shapes = {"rectangle", "disc", "half_disc", "ring", "polygon"};

@@ -47,7 +47,7 @@ void read_method(const InputReader& r, const Place& place, Options<2>& o) {
   choose("kernel", kernels, o.kernel);
   choose("instruction_set", sets, o.instruction_set);
   with(place, "integrator", [&](const Place& p) {
-    if (const auto k = choice(r, p, methods)) o.method = *method_from(std::string(methods[*k]));
+    if (const auto k = choice(r, p, methods)) o.method = *from_word<Method>(std::string(methods[*k]));
   });
   with(place, "rve_length", [&](const Place& p) { o.rve_length = read_length(r, p); });
   number("smoothing_ratio", o.smoothing_ratio, 0.8, 3.0);

@@ -24,7 +24,6 @@ template <class T>
 [[nodiscard]] std::optional<Vec<T, 2>> onset_traction(const CohesiveLaw<T>& law, const Vec<double, 2>& direction,
                                                       std::optional<double> angle_deg = {}) {
   using std::sqrt;
-  constexpr double degree = std::numbers::pi / 180.0;
   Vec<T, 2> ray;
   if (angle_deg) {
     ray[0] = T(std::cos(*angle_deg * degree));

@@ -5,8 +5,8 @@
 #include <array>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "fpz/io/input_reader.hpp"
@@ -14,24 +14,9 @@
 
 namespace fpz::io {
 
-struct MaterialKey {
-  std::string_view name;
-  double Parameters::*member;
-};
-
-/// The keys of a material; all are required.
-inline constexpr std::array<MaterialKey, 10> material_keys = {{
-    {"young_modulus", &Parameters::young_modulus},
-    {"poisson_ratio", &Parameters::poisson_ratio},
-    {"density", &Parameters::density},
-    {"tensile_strength", &Parameters::tensile_strength},
-    {"cohesion", &Parameters::cohesion},
-    {"friction_angle_deg", &Parameters::friction_angle_deg},
-    {"dilation_angle_deg", &Parameters::dilation_angle_deg},
-    {"delta0", &Parameters::delta0},
-    {"normal_stiffness", &Parameters::normal_stiffness},
-    {"shear_stiffness", &Parameters::shear_stiffness},
-}};
+/// The parameters that a material file states; all are required.
+inline constexpr std::span<const ParameterInfo<double>> material_keys(parameter_table<double>.data(),
+                                                                      material_parameter_count);
 
 /// Where a value stands.
 struct Location {
@@ -43,7 +28,7 @@ struct Location {
 struct Material {
   Parameters parameters;  ///< rve_length is 0
   std::string name;
-  std::array<Location, material_keys.size()> locations;  ///< in the order of material_keys
+  std::array<Location, material_parameter_count> locations;  ///< in the order of material_keys
 };
 
 /// The material at `place`; nothing when a value is missing or of a wrong type. `name` is used when it has none.
