@@ -5,7 +5,6 @@
 namespace fpz::bench {
 namespace {
 
-
 /// A random stress state that fails at load factor 1 (by bisection on the reference search over planes).
 template <int Dim>
 struct Sample {

@@ -14,7 +14,6 @@
 namespace fpz::calibration {
 namespace {
 
-
 std::vector<Parameters> tables() { return {test::table1(), test::table2(), test::table3()}; }
 
 double energy(const FractureEnergyTest& t, const Parameters& p) {

@@ -16,7 +16,6 @@ using fpz::Setting;
 using fpz::Validation;
 using fpz::Violation;
 
-
 // One RVE length for all tables.
 Parameters table1() { return fpz::test::table1(4e-3); }
 Parameters table2() { return fpz::test::table2(4e-3); }

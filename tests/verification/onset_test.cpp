@@ -11,7 +11,6 @@
 namespace fpz::test {
 namespace {
 
-
 std::vector<Parameters> all_tables() { return {table1(), table2(), table3()}; }
 
 template <int Dim>

@@ -7,7 +7,6 @@
 namespace fpz::sph::detail {
 namespace {
 
-
 using Keys = std::span<const std::string_view>;
 constexpr std::array<std::string_view, 5> shapes = {"rectangle", "disc", "half_disc", "ring", "polygon"};
 constexpr std::array<std::string_view, 3> rectangle_keys = {"type", "low", "high"};

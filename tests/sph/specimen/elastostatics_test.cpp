@@ -2,8 +2,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "sph/engine/scenes.hpp"
 #include "fpz/specimen/placing.hpp"
+#include "sph/engine/scenes.hpp"
 
 namespace fpz::sph::test {
 namespace {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "fpz/sph/arrangement.hpp"
 #include "fpz/specimen/geometry.hpp"
+#include "fpz/sph/arrangement.hpp"
 
 namespace fpz::sph {
 

@@ -11,10 +11,10 @@
 
 #include "fpz/io/json_locator.hpp"
 #include "fpz/parameters.hpp"
-#include "fpz/sph/group.hpp"
-#include "fpz/sph/options.hpp"
 #include "fpz/specimen/placing.hpp"
 #include "fpz/specimen/toughness.hpp"
+#include "fpz/sph/group.hpp"
+#include "fpz/sph/options.hpp"
 
 namespace fpz::sph {
 
