@@ -57,7 +57,7 @@ TEST(Plausibility, NoGuessWhereNoUnitFits) {
 }
 
 TEST(Plausibility, EveryKeyOfAMaterialHasARange) {
-  for (const io::MaterialKey& key : io::material_keys) {
+  for (const auto& key : io::material_keys) {
     const Typical& t = typical_parameter(key.name);
     EXPECT_LT(t.far_low, t.low) << key.name;
     EXPECT_LT(t.low, t.high) << key.name;

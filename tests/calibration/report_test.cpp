@@ -36,7 +36,7 @@ TEST(Report, MaterialIsReadByTheDriversReader) {
   std::string name;
   const Parameters p = io::read_material_file(folder.path() / "material.json", &name);
   EXPECT_EQ(name, c.specification.name);
-  for (const io::MaterialKey& key : io::material_keys) EXPECT_EQ(p.*key.member, c.parameters.*key.member) << key.name;
+  for (const auto& key : io::material_keys) EXPECT_EQ(p.*key.member, c.parameters.*key.member) << key.name;
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "material_unusable.json"));
 
   const Json provenance = Json::parse(test::text_of(folder.path() / "material.json")).at("provenance");

@@ -74,7 +74,7 @@ std::string material_json(const Calibration& all) {
   if (!all.result.usable()) {
     j["notes"] = "NOT USABLE: " + all.result.message;
   }
-  for (const io::MaterialKey& key : io::material_keys) j[std::string(key.name)] = all.parameters.*key.member;
+  for (const auto& key : io::material_keys) j[std::string(key.name)] = all.parameters.*key.member;
   j["provenance"] = {{"program", "fpz-calibrate"},
                      {"version", FPZ_VERSION},
                      {"specification", spec.file.filename().string()},

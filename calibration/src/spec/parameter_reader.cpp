@@ -15,7 +15,7 @@ constexpr std::array<std::string_view, 2> prior_keys = {"mean", "deviation"};
 
 std::vector<std::string_view> all_names() {
   std::vector<std::string_view> names;
-  for (const ParameterInfo<double>& key : io::material_keys) names.push_back(key.name);
+  for (const auto& key : io::material_keys) names.push_back(key.name);
   return names;
 }
 
