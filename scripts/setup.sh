@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs what the project builds and runs with (Debian 12 or later, or a relative of it). Does nothing, and needs no
-# network, when all packages are present.
+# Installs what the project builds and runs with (Debian 12 or later, or a relative of it); with --ci also the tools of
+# its checks (.ci/run). Does nothing, and needs no network, when all packages are present.
 set -euo pipefail
 
 packages=(
@@ -10,6 +10,11 @@ packages=(
   gnuplot-nox libgnuplot-iostream-dev
   libboost-iostreams-dev libboost-filesystem-dev libboost-system-dev
 )
+case "${1:-}" in
+  "") ;;
+  --ci) packages+=(clang-format-14 clang-tidy-14 ccache git) ;;
+  *) echo "usage: setup.sh [--ci]" >&2; exit 2 ;;
+esac
 
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
   echo "setup.sh knows only apt. Install by hand the equivalents of: ${packages[*]}" >&2

@@ -35,10 +35,12 @@ endif()
 file(WRITE "${WORK}/path.json" "{\"material\": \"strength/material.json\", \"rve_length\": 0.002,
   \"setting\": \"plane_strain\", \"integrator\": {\"name\": \"accurate\", \"tolerance\": 1e-6},
   \"stages\": [{\"increments\": 10, \"strain\": {\"xx\": 1e-3}}]}")
-execute_process(COMMAND "${DRIVER}" run "${WORK}/path.json" -o "${WORK}/driver" --no-plots
-  RESULT_VARIABLE result OUTPUT_VARIABLE out ERROR_VARIABLE err)
-if(NOT result EQUAL 0)
-  message(SEND_ERROR "the driver refuses the calibrated material: ${out}${err}")
+if(DRIVER)
+  execute_process(COMMAND "${DRIVER}" run "${WORK}/path.json" -o "${WORK}/driver" --no-plots
+    RESULT_VARIABLE result OUTPUT_VARIABLE out ERROR_VARIABLE err)
+  if(NOT result EQUAL 0)
+    message(SEND_ERROR "the driver refuses the calibrated material: ${out}${err}")
+  endif()
 endif()
 
 # Energies of one test determine one parameter, not two: files are written, but nobody can take them for a result.
