@@ -6,7 +6,7 @@
 #include "sections.hpp"
 #include "text.hpp"
 
-namespace fpz::sph::report {
+namespace fpz::report {
 namespace {
 
 /// Load (kN) over deflection (um) by another finite-element code, load and supports on points.
@@ -197,7 +197,7 @@ void maps(std::ostream& out, const Results& r, const Gallery& gallery) {
   if (runs.empty()) return;
   const Run& run = *runs.back();
   const io::Table history = run.history();
-  const std::vector<Frame> frames = run.frames();
+  const std::vector<specimen::Frame> frames = run.frames();
   std::vector<CrackMap> list;
   for (const double fraction : {1.0, 0.7, 0.4, 0.1}) {
     const std::size_t row = row_after_peak(history, fraction);
@@ -235,4 +235,4 @@ void write_beam(std::ostream& out, const Results& r, const Gallery& gallery) {
   rate(out, r, gallery);
 }
 
-}  // namespace fpz::sph::report
+}  // namespace fpz::report

@@ -6,7 +6,7 @@
 
 #include "fpz/io/input_error.hpp"
 
-namespace fpz::sph::report {
+namespace fpz::report {
 namespace {
 
 using calibration::NotchedSpecimen;
@@ -38,8 +38,8 @@ Reference compute(const NotchedSpecimen& specimen, Parameters parameters) {
 }  // namespace
 
 Reference beam_reference(const Run& run, double roller_width) {
-  const SceneFile scene = run.scene_file();
-  const auto& box = std::get<Rectangle>(scene.body.shape);
+  const specimen::SceneFile scene = run.scene_file();
+  const auto& box = std::get<specimen::Rectangle>(scene.body.shape);
   NotchedSpecimen s;
   s.shape = SpecimenShape::beam;
   s.length = box.high[0] - box.low[0];
@@ -53,10 +53,10 @@ Reference beam_reference(const Run& run, double roller_width) {
 }
 
 Reference semicircular_reference(const Run& run, double roller_width) {
-  const SceneFile scene = run.scene_file();
+  const specimen::SceneFile scene = run.scene_file();
   NotchedSpecimen s;
   s.shape = SpecimenShape::semicircular;
-  s.radius = std::get<HalfDisc>(scene.body.shape).radius;
+  s.radius = std::get<specimen::HalfDisc>(scene.body.shape).radius;
   s.thickness = scene.thickness;
   s.span = run.setting("boundaries/2/at/0") - run.setting("boundaries/1/at/0");
   s.notch = run.setting("notches/0/length");
@@ -86,4 +86,4 @@ BeamErrors beam_errors(const Run& run) {
           notch_stiffness(run) / fe.notch_stiffness - 1.0, run.figure("fracture_energy_ratio") - 1.0};
 }
 
-}  // namespace fpz::sph::report
+}  // namespace fpz::report

@@ -5,7 +5,7 @@
 #include "fpz/calibration/notched_specimen.hpp"
 #include "results.hpp"
 
-namespace fpz::sph::report {
+namespace fpz::report {
 
 struct Reference {
   calibration::FractureCurve curve;
@@ -35,4 +35,4 @@ struct BeamErrors {
 };
 [[nodiscard]] BeamErrors beam_errors(const Run& run);
 
-}  // namespace fpz::sph::report
+}  // namespace fpz::report

@@ -7,7 +7,7 @@
 #include "sections.hpp"
 #include "text.hpp"
 
-namespace fpz::sph::report {
+namespace fpz::report {
 namespace {
 
 struct Point {
@@ -182,4 +182,4 @@ void write_cost(std::ostream& out, const Results& r, const Gallery& gallery) {
   integrators(out, r);
 }
 
-}  // namespace fpz::sph::report
+}  // namespace fpz::report

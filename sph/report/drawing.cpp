@@ -8,7 +8,7 @@
 #include "fpz/io/input_error.hpp"
 #include "fpz/io/output.hpp"
 
-namespace fpz::sph::report {
+namespace fpz::report {
 namespace {
 
 namespace fs = std::filesystem;
@@ -26,8 +26,8 @@ struct DamageClass {
 constexpr std::array<DamageClass, 3> damage_classes = {
     {{"0 < D <= 0.5", "#F2B861", 0.0}, {"0.5 < D <= 0.9", "#D9512C", 0.5}, {"D > 0.9", "#5C0A12", 0.9}}};
 
-const PointData& field(const CrackMap& map, const char* name) {
-  const PointData* data = map.cloud.find(name);
+const specimen::PointData& field(const CrackMap& map, const char* name) {
+  const specimen::PointData* data = map.cloud.find(name);
   if (data == nullptr) throw io::InputError(map.title + ": a frame has no field \"" + name + "\"");
   return *data;
 }
@@ -51,10 +51,10 @@ std::vector<io::Series> outline(const CrackMap& map) {
   std::vector<io::Series> list;
   for (const auto& points : outlines(map.scene.body)) {
     io::Series s{"", "lines lw 1 lc rgb '#404040'", {}};
-    for (const Point& p : points) s.points.emplace_back(mm * p[0], mm * p[1]);
+    for (const specimen::Point& p : points) s.points.emplace_back(mm * p[0], mm * p[1]);
     list.push_back(s);
   }
-  for (const Notch& n : map.scene.body.notches) {
+  for (const specimen::Notch& n : map.scene.body.notches) {
     list.push_back(
         {"", "lines lw 1 lc rgb '#404040'", {{mm * n.mouth[0], mm * n.mouth[1]}, {mm * n.tip[0], mm * n.tip[1]}}});
   }
@@ -93,18 +93,18 @@ io::Series load_curve(const Run& run, const std::string& title, const std::strin
   return s;
 }
 
-CrackMap crack_map(const Run& run, const Frame& frame, const std::string& title) {
+CrackMap crack_map(const Run& run, const specimen::Frame& frame, const std::string& title) {
   return {title, run.cloud(frame), run.scene_file()};
 }
 
 io::Picture crack_picture(const std::string& name, const std::vector<CrackMap>& maps, int columns) {
-  Point low = Point::Constant(HUGE_VAL), high = Point::Constant(-HUGE_VAL);
+  specimen::Point low = specimen::Point::Constant(HUGE_VAL), high = specimen::Point::Constant(-HUGE_VAL);
   for (const CrackMap& m : maps) {
     const auto [l, h] = extent(m.scene.body.shape);
     low = low.cwiseMin(l).eval();
     high = high.cwiseMax(h).eval();
   }
-  const Point margin = 0.02 * (high - low);
+  const specimen::Point margin = 0.02 * (high - low);
   low -= margin;
   high += margin;
   const int rows = (static_cast<int>(maps.size()) + columns - 1) / columns;
@@ -164,4 +164,4 @@ std::string Gallery::show(const io::Picture& picture, const std::string& name, c
   return "\n![" + caption + "](images/" + file + ")\n";
 }
 
-}  // namespace fpz::sph::report
+}  // namespace fpz::report

@@ -8,7 +8,7 @@
 #include "fpz/io/picture.hpp"
 #include "results.hpp"
 
-namespace fpz::sph::report {
+namespace fpz::report {
 
 /// Styles of curves and points, one after the other.
 [[nodiscard]] std::string curve_style(std::size_t k);
@@ -21,10 +21,10 @@ inline constexpr const char* reference_style = "lines lw 2 dt 2 lc rgb '#202020'
 /// Cracked particles of a run in the outline of its specimen.
 struct CrackMap {
   std::string title;
-  PointCloud cloud;
-  SceneFile scene;
+  specimen::PointCloud cloud;
+  specimen::SceneFile scene;
 };
-[[nodiscard]] CrackMap crack_map(const Run& run, const Frame& frame, const std::string& title);
+[[nodiscard]] CrackMap crack_map(const Run& run, const specimen::Frame& frame, const std::string& title);
 
 /// Maps side by side in so many columns, all with one scale.
 [[nodiscard]] io::Picture crack_picture(const std::string& name, const std::vector<CrackMap>& maps, int columns);
@@ -39,4 +39,4 @@ struct Gallery {
   [[nodiscard]] std::string show(const io::Picture& picture, const std::string& name, const std::string& caption) const;
 };
 
-}  // namespace fpz::sph::report
+}  // namespace fpz::report

@@ -14,7 +14,7 @@
 namespace {
 
 namespace fs = std::filesystem;
-using namespace fpz::sph::report;
+using namespace fpz::report;
 
 std::string report(const Results& results, const Gallery& gallery) {
   std::ostringstream out;

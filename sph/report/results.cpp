@@ -9,7 +9,7 @@
 #include "fpz/io/input_error.hpp"
 #include "fpz/specimen/run.hpp"
 
-namespace fpz::sph::report {
+namespace fpz::report {
 namespace {
 
 namespace fs = std::filesystem;
@@ -86,10 +86,10 @@ std::size_t Run::warnings() const {
   return at != nullptr ? at->items.size() : 0;
 }
 
-io::Table Run::history() const { return io::read_csv(RunFiles(folder).history); }
-SceneFile Run::scene_file() const { return read_scene(RunFiles(folder).scene); }
-std::vector<Frame> Run::frames() const { return read_pvd(folder / "frames.pvd"); }
-PointCloud Run::cloud(const Frame& frame) const { return read_vtk(folder / frame.file); }
+io::Table Run::history() const { return io::read_csv(specimen::RunFiles(folder).history); }
+specimen::SceneFile Run::scene_file() const { return specimen::read_scene(specimen::RunFiles(folder).scene); }
+std::vector<specimen::Frame> Run::frames() const { return specimen::read_pvd(folder / "frames.pvd"); }
+specimen::PointCloud Run::cloud(const specimen::Frame& frame) const { return specimen::read_vtk(folder / frame.file); }
 
 const Run* SweepRuns::find(std::string_view series, std::string_view label) const {
   for (const Run& r : runs) {
@@ -122,9 +122,9 @@ SweepRuns load_sweep(const fs::path& folder, const std::string& name) {
     ++sweep.planned;
     if (cells[status] != "finished" && cells[status] != "failed") continue;
     const fs::path run = folder / name / cells[place];
-    if (!fs::exists(RunFiles(run).summary)) continue;  // failed before it began
+    if (!fs::exists(specimen::RunFiles(run).summary)) continue;  // failed before it began
     sweep.runs.push_back({name, cells[series], cells[label], std::strtod(cells[value].c_str(), nullptr), run,
-                          load_json(RunFiles(run).scene), load_json(RunFiles(run).summary)});
+                          load_json(specimen::RunFiles(run).scene), load_json(specimen::RunFiles(run).summary)});
   }
   return sweep;
 }
@@ -155,10 +155,10 @@ std::size_t row_after_peak(const io::Table& history, double fraction) {
   return static_cast<std::size_t>((at == load.end() ? at - 1 : at) - load.begin());
 }
 
-const Frame& frame_at(const std::vector<Frame>& frames, double time) {
-  return *std::min_element(frames.begin(), frames.end(), [&](const Frame& a, const Frame& b) {
+const specimen::Frame& frame_at(const std::vector<specimen::Frame>& frames, double time) {
+  return *std::min_element(frames.begin(), frames.end(), [&](const specimen::Frame& a, const specimen::Frame& b) {
     return std::abs(a.time - time) < std::abs(b.time - time);
   });
 }
 
-}  // namespace fpz::sph::report
+}  // namespace fpz::report

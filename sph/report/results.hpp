@@ -11,7 +11,7 @@
 #include "fpz/specimen/scene_file.hpp"
 #include "fpz/specimen/vtu.hpp"
 
-namespace fpz::sph::report {
+namespace fpz::report {
 
 /// A run that has ended: finished, or failed on the way.
 struct Run {
@@ -31,9 +31,9 @@ struct Run {
   [[nodiscard]] std::size_t warnings() const;
 
   [[nodiscard]] io::Table history() const;
-  [[nodiscard]] SceneFile scene_file() const;
-  [[nodiscard]] std::vector<Frame> frames() const;
-  [[nodiscard]] PointCloud cloud(const Frame& frame) const;
+  [[nodiscard]] specimen::SceneFile scene_file() const;
+  [[nodiscard]] std::vector<specimen::Frame> frames() const;
+  [[nodiscard]] specimen::PointCloud cloud(const specimen::Frame& frame) const;
 };
 
 /// The runs of one sweep in its order; those that have not ended are missing.
@@ -63,6 +63,6 @@ struct Results {
 [[nodiscard]] std::size_t row_after_peak(const io::Table& history, double fraction);
 
 /// The frame nearest to a time. `frames` must not be empty.
-[[nodiscard]] const Frame& frame_at(const std::vector<Frame>& frames, double time);
+[[nodiscard]] const specimen::Frame& frame_at(const std::vector<specimen::Frame>& frames, double time);
 
-}  // namespace fpz::sph::report
+}  // namespace fpz::report

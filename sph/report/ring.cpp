@@ -6,7 +6,7 @@
 #include "sections.hpp"
 #include "text.hpp"
 
-namespace fpz::sph::report {
+namespace fpz::report {
 namespace {
 
 /// Elastic hoop stress at the hole on the load line in units of P/(pi R t), exact series for d/D = 0.1 ... 0.5.
@@ -25,8 +25,8 @@ double hoop_load(const Run& run) {
 }
 
 struct Onset {
-  double load = NAN, deflection = NAN;  ///< of the row in which the first particle is cracked
-  Point at = Point::Zero();             ///< the most damaged particle of the first frame that shows damage
+  double load = NAN, deflection = NAN;           ///< of the row in which the first particle is cracked
+  specimen::Point at = specimen::Point::Zero();  ///< the most damaged particle of the first frame that shows damage
 };
 
 std::optional<Onset> onset_of(const Run& run) {
@@ -36,14 +36,14 @@ std::optional<Onset> onset_of(const Run& run) {
   if (first == count.end()) return std::nullopt;
   const auto row = static_cast<std::size_t>(first - count.begin());
   Onset onset{t.at("load")[row], t.at("deflection")[row]};
-  for (const Frame& f : run.frames()) {
-    const PointCloud cloud = run.cloud(f);
-    const PointData* damage = cloud.find("damage");
+  for (const specimen::Frame& f : run.frames()) {
+    const specimen::PointCloud cloud = run.cloud(f);
+    const specimen::PointData* damage = cloud.find("damage");
     if (damage == nullptr) continue;
     const auto most = std::max_element(damage->values.begin(), damage->values.end());
     if (*most <= 0.0) continue;
     const auto i = static_cast<std::size_t>(most - damage->values.begin());
-    onset.at = Point(cloud.points[3 * i], cloud.points[3 * i + 1]);
+    onset.at = specimen::Point(cloud.points[3 * i], cloud.points[3 * i + 1]);
     return onset;
   }
   return onset;
@@ -61,9 +61,9 @@ struct Secondary {
 
 Secondary secondary_of(const Run& run) {
   Secondary s;
-  for (const Frame& f : run.frames()) {
-    const PointCloud cloud = run.cloud(f);
-    const PointData* damage = cloud.find("damage");
+  for (const specimen::Frame& f : run.frames()) {
+    const specimen::PointCloud cloud = run.cloud(f);
+    const specimen::PointData* damage = cloud.find("damage");
     if (damage == nullptr) continue;
     s.particles = 0;
     s.innermost = NAN;
@@ -175,4 +175,4 @@ void write_ring(std::ostream& out, const Results& r, const Gallery& gallery) {
   pictures(out, runs, gallery);
 }
 
-}  // namespace fpz::sph::report
+}  // namespace fpz::report

@@ -7,7 +7,7 @@
 #include "sections.hpp"
 #include "text.hpp"
 
-namespace fpz::sph::report {
+namespace fpz::report {
 namespace {
 
 namespace fs = std::filesystem;
@@ -46,12 +46,12 @@ struct Crack {
 
 Crack crack_of(const Run& run) {
   Crack c;
-  const io::Table t = io::read_csv(RunFiles(run.folder).crack);
-  const Notch notch = run.scene_file().body.notches.front();
-  const Point load(run.setting("boundaries/0/at/0"), run.setting("boundaries/0/at/1"));
+  const io::Table t = io::read_csv(specimen::RunFiles(run.folder).crack);
+  const specimen::Notch notch = run.scene_file().body.notches.front();
+  const specimen::Point load(run.setting("boundaries/0/at/0"), run.setting("boundaries/0/at/1"));
   c.way = (load - notch.tip).norm();
   for (std::size_t k = 0; k < t.rows(); ++k) {
-    const Point p(t.at("x")[k], t.at("y")[k]);
+    const specimen::Point p(t.at("x")[k], t.at("y")[k]);
     c.from_tip = std::fmin(c.from_tip, (p - notch.tip).norm());
     c.from_load = std::fmin(c.from_load, (p - load).norm());
   }
@@ -171,7 +171,7 @@ void artificial_stress(std::ostream& out, const Results& r, const Gallery& galle
               rows);
   if (maps.size() == 2) {
     const auto count = [](const CrackMap& m) {
-      const PointData* d = m.cloud.find("damage");
+      const specimen::PointData* d = m.cloud.find("damage");
       return d == nullptr ? 0 : std::count_if(d->values.begin(), d->values.end(), [](double x) { return x > 0.5; });
     };
     const auto with = count(maps[0]), without = count(maps[1]);
@@ -201,4 +201,4 @@ void write_semicircular(std::ostream& out, const Results& r, const Gallery& gall
   artificial_stress(out, r, gallery);
 }
 
-}  // namespace fpz::sph::report
+}  // namespace fpz::report

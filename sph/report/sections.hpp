@@ -6,11 +6,11 @@
 #include "drawing.hpp"
 #include "results.hpp"
 
-namespace fpz::sph::report {
+namespace fpz::report {
 
 void write_beam(std::ostream& out, const Results& results, const Gallery& gallery);
 void write_semicircular(std::ostream& out, const Results& results, const Gallery& gallery);
 void write_ring(std::ostream& out, const Results& results, const Gallery& gallery);
 void write_cost(std::ostream& out, const Results& results, const Gallery& gallery);
 
-}  // namespace fpz::sph::report
+}  // namespace fpz::report

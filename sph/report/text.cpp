@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
-namespace fpz::sph::report {
+namespace fpz::report {
 
 std::string fixed(double x, int digits) {
   if (!std::isfinite(x)) return "-";
@@ -52,4 +52,4 @@ bool write_state(std::ostream& out, const SweepRuns& sweep, const std::string& w
   return !sweep.runs.empty();
 }
 
-}  // namespace fpz::sph::report
+}  // namespace fpz::report

@@ -7,7 +7,7 @@
 
 #include "results.hpp"
 
-namespace fpz::sph::report {
+namespace fpz::report {
 
 /// With so many digits after the point; "-" for NaN.
 [[nodiscard]] std::string fixed(double x, int digits);
@@ -23,4 +23,4 @@ void write_table(std::ostream& out, const Row& header, const std::vector<Row>& r
 /// One line on how much of a sweep there is; nothing when all its runs have finished. False when there is none.
 bool write_state(std::ostream& out, const SweepRuns& sweep, const std::string& what);
 
-}  // namespace fpz::sph::report
+}  // namespace fpz::report

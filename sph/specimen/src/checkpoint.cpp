@@ -6,7 +6,7 @@
 #include "fpz/io/output.hpp"
 #include "fpz/specimen/run.hpp"
 
-namespace fpz::sph {
+namespace fpz::specimen {
 namespace {
 
 constexpr std::uint64_t magic = 0x31305055524b4346ULL;
@@ -112,4 +112,4 @@ Checkpoint read_checkpoint(const std::filesystem::path& file) {
   return c;
 }
 
-}  // namespace fpz::sph
+}  // namespace fpz::specimen

@@ -6,7 +6,7 @@
 
 #include "point_grid.hpp"
 
-namespace fpz::sph {
+namespace fpz::specimen {
 namespace {
 
 using detail::PointGrid;
@@ -242,4 +242,4 @@ std::vector<double> piece_areas(const std::vector<Spot>& all, const std::vector<
   return areas;
 }
 
-}  // namespace fpz::sph
+}  // namespace fpz::specimen

@@ -8,7 +8,7 @@
 
 #include "fpz/io/input_error.hpp"
 
-namespace fpz::sph {
+namespace fpz::specimen {
 namespace {
 
 double seconds(std::chrono::steady_clock::time_point since) {
@@ -33,13 +33,13 @@ long long steps_to_deflection(const SceneFile& scene, double time_step) {
 Estimate estimate(const SceneFile& scene, const Specimen& specimen, int threads) {
   Specimen own = specimen;
   if (threads > 0) own.setup.options.threads = threads;
-  Simulation<2> run(own.setup);
+  sph::Simulation<2> run(own.setup);
   Estimate e;
   e.schedule = schedule_of(scene, run.time_step());
   e.likely_steps = steps_to_deflection(scene, run.time_step());
   e.mean_neighbours = run.mean_neighbours();
   const auto step = [&] {
-    if (const Outcome o = run.step(); !o.ok())
+    if (const sph::Outcome o = run.step(); !o.ok())
       throw io::InputError(scene.name + ": the first steps fail: " + o.message());
   };
   for (int k = 0; k < 3; ++k) step();  // warm
@@ -82,4 +82,4 @@ std::string estimate_text(const SceneFile& scene, const Specimen& specimen, cons
   return s.str();
 }
 
-}  // namespace fpz::sph
+}  // namespace fpz::specimen

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-namespace fpz::sph {
+namespace fpz::specimen {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -195,7 +195,7 @@ std::vector<Point> corners(const Notch& n) {
   return {back - side, n.tip - side, n.tip + side, back + side};
 }
 
-Cut<2> cut_of(const Notch& n) { return {{n.mouth, n.tip}}; }
+sph::Cut<2> cut_of(const Notch& n) { return {{n.mouth, n.tip}}; }
 
 std::vector<std::vector<Point>> outlines(const Body& body) {
   std::vector<std::vector<Point>> lines = outlines(body.shape);
@@ -208,4 +208,4 @@ std::vector<std::vector<Point>> outlines(const Body& body) {
   return lines;
 }
 
-}  // namespace fpz::sph
+}  // namespace fpz::specimen

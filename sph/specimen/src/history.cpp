@@ -6,7 +6,7 @@
 
 #include "fpz/io/problems.hpp"
 
-namespace fpz::sph {
+namespace fpz::specimen {
 
 std::size_t History::column(std::string_view name) const {
   const auto at = std::find(columns.begin(), columns.end(), name);
@@ -25,4 +25,4 @@ std::string History::to_csv() const {
   return text;
 }
 
-}  // namespace fpz::sph
+}  // namespace fpz::specimen

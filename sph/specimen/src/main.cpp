@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 namespace io = fpz::io;
-using namespace fpz::sph;
+using namespace fpz::specimen;
 
 volatile std::sig_atomic_t interrupted = 0;
 extern "C" void on_signal(int) { interrupted = 1; }

@@ -3,7 +3,7 @@
 
 #include "fpz/specimen/scene_file.hpp"
 
-namespace fpz::sph {
+namespace fpz::specimen {
 namespace {
 
 using io::JsonValue;
@@ -149,4 +149,4 @@ std::string to_text(const JsonValue& root) {
   return out + "\n";
 }
 
-}  // namespace fpz::sph
+}  // namespace fpz::specimen

@@ -3,14 +3,15 @@
 #include "fpz/io/csv.hpp"
 #include "fpz/specimen/specimen.hpp"
 
-namespace fpz::sph {
+namespace fpz::specimen {
 namespace {
 
 using io::InputError;
 
-Arrangement<2> assemble(const std::vector<double>& x, const std::vector<double>& y, const std::vector<double>* volume,
-                        const std::vector<double>* group, double spacing, const std::string& file) {
-  Arrangement<2> a;
+sph::Arrangement<2> assemble(const std::vector<double>& x, const std::vector<double>& y,
+                             const std::vector<double>* volume, const std::vector<double>* group, double spacing,
+                             const std::string& file) {
+  sph::Arrangement<2> a;
   a.spacing = spacing;
   for (std::size_t i = 0; i < x.size(); ++i) {
     const double v = volume != nullptr ? (*volume)[i] : spacing * spacing;
@@ -27,7 +28,7 @@ Arrangement<2> assemble(const std::vector<double>& x, const std::vector<double>&
 
 }  // namespace
 
-Arrangement<2> read_particles(const std::filesystem::path& file, double spacing) {
+sph::Arrangement<2> read_particles(const std::filesystem::path& file, double spacing) {
   if (file.extension() == ".csv") {
     const io::Table t = io::read_csv(file);
     return assemble(t.at("x"), t.at("y"), t.find("volume"), t.find("group"), spacing, file.string());
@@ -48,4 +49,4 @@ Arrangement<2> read_particles(const std::filesystem::path& file, double spacing)
   return assemble(x, y, scalars("volume"), scalars("group"), spacing, file.string());
 }
 
-}  // namespace fpz::sph
+}  // namespace fpz::specimen

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace fpz::sph::detail {
+namespace fpz::specimen::detail {
 namespace {
 
 constexpr double mm = 1e3;
@@ -71,4 +71,4 @@ io::Picture map_picture(const std::string& name, const std::vector<ParticleMap>&
   return picture;
 }
 
-}  // namespace fpz::sph::detail
+}  // namespace fpz::specimen::detail

@@ -7,7 +7,7 @@
 #include "fpz/io/picture.hpp"
 #include "fpz/specimen/geometry.hpp"
 
-namespace fpz::sph::detail {
+namespace fpz::specimen::detail {
 
 struct ColourClass {
   std::string title, colour;
@@ -26,4 +26,4 @@ struct ParticleMap {
 [[nodiscard]] io::Picture map_picture(const std::string& name, const std::vector<ParticleMap>& maps,
                                       const std::vector<ColourClass>& classes, double size, int legend_columns);
 
-}  // namespace fpz::sph::detail
+}  // namespace fpz::specimen::detail

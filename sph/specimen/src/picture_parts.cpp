@@ -7,7 +7,7 @@
 #include "fpz/io/input_error.hpp"
 #include "fpz/io/output.hpp"
 
-namespace fpz::sph::detail {
+namespace fpz::specimen::detail {
 
 std::string line(const char* colour, const char* dash) {
   return "lines lw 2 lc rgb '" + std::string(colour) + "' " + dash;
@@ -79,4 +79,4 @@ bool gnuplot_missing(PictureOutcome& outcome) {
   return true;
 }
 
-}  // namespace fpz::sph::detail
+}  // namespace fpz::specimen::detail

@@ -10,7 +10,7 @@
 #include "fpz/specimen/vtu.hpp"
 #include "particle_map.hpp"
 
-namespace fpz::sph::detail {
+namespace fpz::specimen::detail {
 
 inline constexpr const char* blue = "#1F5FA8";
 inline constexpr const char* red = "#C0392B";
@@ -42,4 +42,4 @@ void write_pictures(const std::vector<io::Picture>& pictures, const std::filesys
 /// True, with a warning, when there is no gnuplot.
 [[nodiscard]] bool gnuplot_missing(PictureOutcome& outcome);
 
-}  // namespace fpz::sph::detail
+}  // namespace fpz::specimen::detail

@@ -10,7 +10,7 @@
 #include "fpz/specimen/run.hpp"
 #include "picture_parts.hpp"
 
-namespace fpz::sph {
+namespace fpz::specimen {
 namespace {
 
 namespace fs = std::filesystem;
@@ -171,7 +171,7 @@ PictureOutcome draw_scene(const SceneFile& scene, const Specimen& specimen, cons
   for (std::size_t b = 0; b < scene.boundaries.size(); ++b)
     classes.push_back({io::gnuplot_plain(scene.boundaries[b].name), colours[b % 6]});
   classes.push_back({"gauges", "#202020"});
-  const Arrangement<2>& a = specimen.setup.arrangement;
+  const sph::Arrangement<2>& a = specimen.setup.arrangement;
   ParticleMap map{io::gnuplot_plain(scene.name) + ": " + std::to_string(a.size()) + " particles", a.position, {}, {}};
   for (const int g : a.group) map.colour.push_back(static_cast<std::size_t>(g + 1));
   for (const auto& points : outlines(scene.body)) map.lines.push_back(outline(points, "lines lw 1.5 lc rgb '#202020'"));
@@ -189,4 +189,4 @@ PictureOutcome draw_scene(const SceneFile& scene, const Specimen& specimen, cons
   return outcome;
 }
 
-}  // namespace fpz::sph
+}  // namespace fpz::specimen

@@ -5,14 +5,14 @@
 #include <numbers>
 #include <stdexcept>
 
-namespace fpz::sph {
+namespace fpz::specimen {
 namespace {
 
 constexpr double pi = std::numbers::pi;
 constexpr double most_particles = 2e8;
 
 /// One volume for all, with the area of the body as the sum.
-void share_area(Arrangement<2>& a, const Body& body) {
+void share_area(sph::Arrangement<2>& a, const Body& body) {
   if (a.size() == 0) throw std::invalid_argument("the spacing is so large that no particle fits into the body");
   std::fill(a.volume.begin(), a.volume.end(), area(body) / static_cast<double>(a.size()));
 }
@@ -33,8 +33,8 @@ int cells(const Body& body, const Rectangle& r, int component, double spacing) {
   return nearest;
 }
 
-Arrangement<2> fitted_lattice(const Body& body, const Rectangle& r, double spacing) {
-  Arrangement<2> a;
+sph::Arrangement<2> fitted_lattice(const Body& body, const Rectangle& r, double spacing) {
+  sph::Arrangement<2> a;
   a.spacing = spacing;
   const int nx = cells(body, r, 0, spacing), ny = cells(body, r, 1, spacing);
   const Point size = r.high - r.low;
@@ -48,8 +48,8 @@ Arrangement<2> fitted_lattice(const Body& body, const Rectangle& r, double spaci
   return a;
 }
 
-Arrangement<2> lattice(const Body& body, const Pattern& pattern, double spacing) {
-  Arrangement<2> a;
+sph::Arrangement<2> lattice(const Body& body, const Pattern& pattern, double spacing) {
+  sph::Arrangement<2> a;
   a.spacing = spacing;
   const bool turned = pattern.kind == Pattern::Kind::lattice;
   const Point u = turned ? Point(std::cos(pattern.angle), std::sin(pattern.angle)) : Point(1.0, 0.0);
@@ -78,7 +78,7 @@ Arrangement<2> lattice(const Body& body, const Pattern& pattern, double spacing)
 
 /// Rings between two radii. Even numbers of particles, one at the top: symmetric about both axes. A disc has one
 /// particle in its middle.
-void add_rings(Arrangement<2>& a, const Body& body, const Point& centre, double inner, double outer, bool half) {
+void add_rings(sph::Arrangement<2>& a, const Body& body, const Point& centre, double inner, double outer, bool half) {
   const double middle = inner > 0.0 ? inner : 0.5 * outer / (std::floor(outer / a.spacing) + 0.5);
   const int rings = std::max(1, static_cast<int>(std::lround((outer - middle) / a.spacing)));
   const double pitch = (outer - middle) / rings;
@@ -96,8 +96,8 @@ void add_rings(Arrangement<2>& a, const Body& body, const Point& centre, double 
   }
 }
 
-Arrangement<2> rings(const Body& body, double spacing) {
-  Arrangement<2> a;
+sph::Arrangement<2> rings(const Body& body, double spacing) {
+  sph::Arrangement<2> a;
   a.spacing = spacing;
   if (const auto* d = std::get_if<Disc>(&body.shape)) {
     add_rings(a, body, d->centre, 0.0, d->radius, false);
@@ -137,7 +137,7 @@ double first_hit(const Shape& shape, const Point& start, const Point& d, double 
 
 }  // namespace
 
-Arrangement<2> place_specimen(const Body& body, const Pattern& pattern, double spacing) {
+sph::Arrangement<2> place_specimen(const Body& body, const Pattern& pattern, double spacing) {
   const auto [low, high] = extent(body.shape);
   if ((high - low).prod() / (spacing * spacing) > most_particles) {
     throw std::invalid_argument("the spacing is so small that there would be more than 2e8 particles");
@@ -148,7 +148,7 @@ Arrangement<2> place_specimen(const Body& body, const Pattern& pattern, double s
   return lattice(body, pattern, spacing);
 }
 
-void place_platen(Arrangement<2>& a, const Shape& shape, const Platen& platen, int group) {
+void place_platen(sph::Arrangement<2>& a, const Shape& shape, const Platen& platen, int group) {
   const Point d = platen.direction.normalized();
   const Point t(d[1], -d[0]);
   const int columns = std::max(1, static_cast<int>(std::lround(platen.width / a.spacing)));
@@ -174,4 +174,4 @@ void place_platen(Arrangement<2>& a, const Shape& shape, const Platen& platen, i
   }
 }
 
-}  // namespace fpz::sph
+}  // namespace fpz::specimen

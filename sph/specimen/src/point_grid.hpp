@@ -8,7 +8,7 @@
 
 #include "fpz/specimen/geometry.hpp"
 
-namespace fpz::sph::detail {
+namespace fpz::specimen::detail {
 
 class PointGrid {
  public:
@@ -42,4 +42,4 @@ class PointGrid {
   std::unordered_map<std::uint64_t, std::vector<std::size_t>> cells_;
 };
 
-}  // namespace fpz::sph::detail
+}  // namespace fpz::specimen::detail

@@ -2,7 +2,7 @@
 
 #include "scene_reader.hpp"
 
-namespace fpz::sph::detail {
+namespace fpz::specimen::detail {
 
 using Kind = JsonValue::Kind;
 
@@ -66,4 +66,4 @@ std::optional<double> not_negative(const InputReader& r, const Place& place) {
   return std::nullopt;
 }
 
-}  // namespace fpz::sph::detail
+}  // namespace fpz::specimen::detail

@@ -4,7 +4,7 @@
 
 #include "scene_reader.hpp"
 
-namespace fpz::sph::detail {
+namespace fpz::specimen::detail {
 namespace {
 
 using Keys = std::span<const std::string_view>;
@@ -145,7 +145,7 @@ void read_body(const InputReader& r, const Place& root, SceneFile& scene) {
     }
   });
   // Particles do not interact across a slot as wide as the support of the kernel.
-  const double narrowest = kernel_support * scene.options.smoothing_ratio * scene.spacing;
+  const double narrowest = sph::kernel_support * scene.options.smoothing_ratio * scene.spacing;
   with(root, "notches", [&](const Place& p) {
     if (!p.value().is(JsonValue::Kind::array)) return r.problem(p, "expected an array of notches");
     for (const JsonValue& item : p.value().items)
@@ -187,4 +187,4 @@ void read_arrangement(const InputReader& r, const Place& root, SceneFile& scene)
   }
 }
 
-}  // namespace fpz::sph::detail
+}  // namespace fpz::specimen::detail

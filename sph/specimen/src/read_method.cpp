@@ -1,7 +1,7 @@
-// The choices of the particle method; names and defaults are those of fpz::sph::Options.
+// The choices of the particle method; names and defaults are those of sph::Options.
 #include "scene_reader.hpp"
 
-namespace fpz::sph::detail {
+namespace fpz::specimen::detail {
 namespace {
 
 constexpr std::array<std::string_view, 18> keys = {
@@ -16,13 +16,14 @@ constexpr std::array<std::string_view, 2> lengths = {"spacing", "band"};
 constexpr std::array<std::string_view, 3> methods = {"accurate", "implicit", "paper"};
 constexpr std::array<std::string_view, 4> sets = {"best", "baseline", "avx2", "avx512"};
 
-RveLength read_length(const InputReader& r, const Place& p) {
-  RveLength length;
+sph::RveLength read_length(const InputReader& r, const Place& p) {
+  sph::RveLength length;
   if (p.value().is(JsonValue::Kind::number)) {
-    length.rule = RveLength::Rule::number;
+    length.rule = sph::RveLength::Rule::number;
     length.value = r.positive(p).value_or(1.0);
   } else if (p.value().is(JsonValue::Kind::string)) {
-    if (const auto k = choice(r, p, lengths)) length.rule = *k == 0 ? RveLength::Rule::spacing : RveLength::Rule::band;
+    if (const auto k = choice(r, p, lengths))
+      length.rule = *k == 0 ? sph::RveLength::Rule::spacing : sph::RveLength::Rule::band;
   } else {
     r.problem(p, "expected \"spacing\", \"band\" or a number of metres, found " + p.value().description());
   }
@@ -31,7 +32,7 @@ RveLength read_length(const InputReader& r, const Place& p) {
 
 }  // namespace
 
-void read_method(const InputReader& r, const Place& place, Options<2>& o) {
+void read_method(const InputReader& r, const Place& place, sph::Options<2>& o) {
   if (!r.object(place, "choices of the method")) return;
   r.known_keys(place, keys);
   const auto choose = [&](std::string_view key, std::span<const std::string_view> valid, auto& member) {
@@ -66,4 +67,4 @@ void read_method(const InputReader& r, const Place& place, Options<2>& o) {
   with(place, "threads", [&](const Place& p) { o.threads = r.integer(p, 0, 4096).value_or(0); });
 }
 
-}  // namespace fpz::sph::detail
+}  // namespace fpz::specimen::detail

@@ -1,7 +1,7 @@
 // Boundaries, gauges, stop conditions, output.
 #include "scene_reader.hpp"
 
-namespace fpz::sph::detail {
+namespace fpz::specimen::detail {
 namespace {
 
 constexpr std::array<std::string_view, 8> boundary_keys = {"name",   "at",  "direction", "width",
@@ -22,8 +22,8 @@ constexpr std::array<std::string_view, 14> taken = {
     "energy_viscous", "energy_damping", "energy_artificial", "energy_error",   "damaged_particles", "cracked_particles",
     "largest_damage", "released_bonds"};
 
-Motion read_motion(const InputReader& r, const Place& p) {
-  Motion m;
+sph::Motion read_motion(const InputReader& r, const Place& p) {
+  sph::Motion m;
   if (p.value().is(JsonValue::Kind::number)) {
     m.speed = r.number(p).value_or(0.0);
     return m;
@@ -244,4 +244,4 @@ void read_output(const InputReader& r, const Place& place, OutputRules& o) {
   list("picture_loads", -1.0, 1.0, o.picture_loads);
 }
 
-}  // namespace fpz::sph::detail
+}  // namespace fpz::specimen::detail

@@ -6,7 +6,7 @@
 
 #include "scene_reader.hpp"
 
-namespace fpz::sph::detail {
+namespace fpz::specimen::detail {
 namespace {
 
 constexpr std::array<std::string_view, 3> toughness_keys = {"type", "notch", "factors"};
@@ -128,4 +128,4 @@ void read_toughness(const InputReader& r, JsonValue& root, SceneFile& scene) {
   scene.toughness = semicircular_bending(r, place, scene, *notch, *factors);
 }
 
-}  // namespace fpz::sph::detail
+}  // namespace fpz::specimen::detail

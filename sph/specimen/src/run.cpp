@@ -13,7 +13,7 @@
 #include "fpz/specimen/estimate.hpp"
 #include "fpz/specimen/summary.hpp"
 
-namespace fpz::sph {
+namespace fpz::specimen {
 namespace {
 
 namespace fs = std::filesystem;
@@ -139,7 +139,7 @@ class Runner {
 
   void advance(RunResult& result) {
     const auto before = Clock::now();
-    const Outcome outcome = run_.step();
+    const sph::Outcome outcome = run_.step();
     record_.stepping_seconds += seconds_since(before);
     ++steps_here_;
     accumulate();
@@ -179,7 +179,7 @@ class Runner {
 
   /// Gauges as means over the steps since the last row, the rest as it is now.
   void add_row() {
-    const Energies e = run_.energies();
+    const sph::Energies e = run_.energies();
     const double b = scene_.thickness;
     std::vector<double> row = {static_cast<double>(run_.steps()), run_.time()};
     const auto gauge = [&](std::size_t k) {
@@ -201,10 +201,10 @@ class Runner {
   }
 
   [[nodiscard]] double largest_damage() const {
-    const Particles<2>& p = run_.particles();
+    const sph::Particles<2>& p = run_.particles();
     double largest = 0.0;
     for (std::size_t i = 0; i < p.count; ++i) {
-      if (p.kind[i] == kind::cracked) largest = std::max(largest, 1.0 - p.point[i].crack.integrity);
+      if (p.kind[i] == sph::kind::cracked) largest = std::max(largest, 1.0 - p.point[i].crack.integrity);
     }
     return largest;
   }
@@ -324,7 +324,7 @@ class Runner {
   const RunRequest& request_;
   RunFiles files_;
   Specimen specimen_;
-  Simulation<2> run_;
+  sph::Simulation<2> run_;
   Schedule schedule_;
   std::vector<std::string> order_;  ///< gauges in the order of the columns
   std::vector<double> levels_;      ///< parts of the peak load at which a frame is written; <= 0: none
@@ -362,4 +362,4 @@ RunResult run_scene(const SceneFile& scene, const RunRequest& request) {
   return Runner(own, request).go();
 }
 
-}  // namespace fpz::sph
+}  // namespace fpz::specimen

@@ -3,7 +3,7 @@
 #include "fpz/io/material_file.hpp"
 #include "scene_reader.hpp"
 
-namespace fpz::sph {
+namespace fpz::specimen {
 namespace {
 
 using namespace detail;
@@ -114,4 +114,4 @@ SceneFile read_scene(const fs::path& file, const Overrides& overrides) {
   return parse_scene(text, file, overrides);
 }
 
-}  // namespace fpz::sph
+}  // namespace fpz::specimen

@@ -7,7 +7,7 @@
 #include "fpz/io/input_reader.hpp"
 #include "fpz/specimen/scene_file.hpp"
 
-namespace fpz::sph::detail {
+namespace fpz::specimen::detail {
 
 using io::InputReader;
 using io::JsonValue;
@@ -54,11 +54,11 @@ struct NamedTree {
 void read_body(const InputReader& r, const Place& root, SceneFile& scene);
 void read_arrangement(const InputReader& r, const Place& root, SceneFile& scene);
 void read_boundaries(const InputReader& r, const Place& place, SceneFile& scene);
-void read_method(const InputReader& r, const Place& place, Options<2>& options);
+void read_method(const InputReader& r, const Place& place, sph::Options<2>& options);
 void read_gauges(const InputReader& r, const Place& place, SceneFile& scene);
 /// After the body and the boundaries. The content of a file with factors takes the place of its name in `root`.
 void read_toughness(const InputReader& r, JsonValue& root, SceneFile& scene);
 void read_stop(const InputReader& r, const Place& place, StopRules& stop);
 void read_output(const InputReader& r, const Place& place, OutputRules& output);
 
-}  // namespace fpz::sph::detail
+}  // namespace fpz::specimen::detail

@@ -7,16 +7,16 @@
 
 #include "fpz/io/input_error.hpp"
 
-namespace fpz::sph {
+namespace fpz::specimen {
 namespace {
 
 using io::InputError;
 
 [[noreturn]] void fail(const SceneFile& scene, const std::string& what) { throw InputError(scene.name + ": " + what); }
 
-Arrangement<2> place(const SceneFile& scene) {
-  Arrangement<2> a = scene.particles ? read_particles(scene.particles->file, scene.spacing)
-                                     : place_specimen(scene.body, scene.pattern, scene.spacing);
+sph::Arrangement<2> place(const SceneFile& scene) {
+  sph::Arrangement<2> a = scene.particles ? read_particles(scene.particles->file, scene.spacing)
+                                          : place_specimen(scene.body, scene.pattern, scene.spacing);
   for (std::size_t b = 0; b < scene.boundaries.size(); ++b) {
     const Boundary& boundary = scene.boundaries[b];
     const int group = static_cast<int>(b);
@@ -36,7 +36,7 @@ Arrangement<2> place(const SceneFile& scene) {
   return a;
 }
 
-std::vector<std::size_t> particles_of(const Site& site, const SceneFile& scene, const Arrangement<2>& a,
+std::vector<std::size_t> particles_of(const Site& site, const SceneFile& scene, const sph::Arrangement<2>& a,
                                       const std::string& gauge) {
   std::vector<std::size_t> found;
   if (!site.group.empty()) {
@@ -51,7 +51,7 @@ std::vector<std::size_t> particles_of(const Site& site, const SceneFile& scene, 
   double nearest = 1e300;
   std::size_t closest = 0;
   for (std::size_t i = 0; i < a.size(); ++i) {
-    if (a.group[i] != Arrangement<2>::specimen) continue;
+    if (a.group[i] != sph::Arrangement<2>::specimen) continue;
     const Point& x = a.position[i];
     if (site.box) {
       if (((x - site.box->low).array() >= 0.0).all() && ((site.box->high - x).array() >= 0.0).all()) found.push_back(i);
@@ -65,7 +65,7 @@ std::vector<std::size_t> particles_of(const Site& site, const SceneFile& scene, 
   // Particles equally near all count: which one is first would be an accident.
   if (found.empty()) {
     for (std::size_t i = 0; i < a.size(); ++i) {
-      if (a.group[i] == Arrangement<2>::specimen &&
+      if (a.group[i] == sph::Arrangement<2>::specimen &&
           (a.position[i] - site.centre).norm() <= nearest + 1e-6 * a.spacing) {
         found.push_back(i);
       }
@@ -75,7 +75,7 @@ std::vector<std::size_t> particles_of(const Site& site, const SceneFile& scene, 
   return found;
 }
 
-BoundGauge bind(const Gauge& gauge, const SceneFile& scene, const Arrangement<2>& a, const std::string& name) {
+BoundGauge bind(const Gauge& gauge, const SceneFile& scene, const sph::Arrangement<2>& a, const std::string& name) {
   BoundGauge b;
   if (const auto* force = std::get_if<ForceGauge>(&gauge)) {
     b.direction = force->direction;
@@ -98,8 +98,8 @@ BoundGauge bind(const Gauge& gauge, const SceneFile& scene, const Arrangement<2>
   return b;
 }
 
-Point mean_displacement(const Simulation<2>& run, const std::vector<std::size_t>& ids) {
-  const Particles<2>& p = run.particles();
+Point mean_displacement(const sph::Simulation<2>& run, const std::vector<std::size_t>& ids) {
+  const sph::Particles<2>& p = run.particles();
   Point sum = Point::Zero();
   for (const std::size_t id : ids) {
     const std::size_t i = run.slot(id);
@@ -109,15 +109,15 @@ Point mean_displacement(const Simulation<2>& run, const std::vector<std::size_t>
 }
 
 /// Rotation that takes the frame of a particle's stored tensors to space.
-Mat<double, 2, 2> to_space(const Simulation<2>& run, std::size_t i, bool updated) {
+Mat<double, 2, 2> to_space(const sph::Simulation<2>& run, std::size_t i, bool updated) {
   Mat<double, 2, 2> q = Mat<double, 2, 2>::Identity();
   if (updated) return q;
-  const Particles<2>& p = run.particles();
+  const sph::Particles<2>& p = run.particles();
   q << p.rotation[0][i], -p.rotation[1][i], p.rotation[1][i], p.rotation[0][i];
   return q;
 }
 
-Mat<double, 2, 2> stress_in_space(const Simulation<2>& run, std::size_t i, bool updated) {
+Mat<double, 2, 2> stress_in_space(const sph::Simulation<2>& run, std::size_t i, bool updated) {
   const Mat<double, 2, 2> q = to_space(run, i, updated);
   return q * to_matrix<double, 2>(run.particles().stress_of(i)) * q.transpose();
 }
@@ -128,7 +128,7 @@ int worthwhile_threads(std::size_t particles) {
   return static_cast<int>(std::clamp(particles / 4000, std::size_t{1}, cores));
 }
 
-bool is_updated(const Specimen& s) { return s.setup.options.configuration == Configuration::updated; }
+bool is_updated(const Specimen& s) { return s.setup.options.configuration == sph::Configuration::updated; }
 
 }  // namespace
 
@@ -140,12 +140,12 @@ Specimen make_specimen(const SceneFile& scene) {
     fail(scene, e.what());
   }
   for (const Notch& n : scene.body.notches) s.setup.arrangement.cuts.push_back(cut_of(n));
-  const Arrangement<2>& a = s.setup.arrangement;
+  const sph::Arrangement<2>& a = s.setup.arrangement;
   for (std::size_t i = 0; i < a.size(); ++i) {
-    if (a.group[i] == Arrangement<2>::specimen) s.area += a.volume[i];
+    if (a.group[i] == sph::Arrangement<2>::specimen) s.area += a.volume[i];
   }
   for (const Boundary& b : scene.boundaries) {
-    Group<2> group;
+    sph::Group<2> group;
     group.name = b.name;
     group.motion = b.velocity;
     group.elastic = b.elastic;
@@ -165,7 +165,7 @@ Specimen make_specimen(const SceneFile& scene) {
   return s;
 }
 
-double measure(const BoundGauge& g, const Simulation<2>& run, double thickness) {
+double measure(const BoundGauge& g, const sph::Simulation<2>& run, double thickness) {
   if (g.kind == BoundGauge::Kind::force) {
     Point sum = Point::Zero();
     for (const std::size_t k : g.groups) sum += run.reaction(k);
@@ -181,15 +181,15 @@ double measure(const BoundGauge& g, const Simulation<2>& run, double thickness) 
   return sum / static_cast<double>(g.of.size());
 }
 
-std::vector<Spot> spots(const Simulation<2>& run, const Specimen& specimen) {
-  const Particles<2>& p = run.particles();
-  const Arrangement<2>& a = specimen.setup.arrangement;
+std::vector<Spot> spots(const sph::Simulation<2>& run, const Specimen& specimen) {
+  const sph::Particles<2>& p = run.particles();
+  const sph::Arrangement<2>& a = specimen.setup.arrangement;
   std::vector<Spot> all;
   for (std::size_t id = 0; id < a.size(); ++id) {
-    if (a.group[id] != Arrangement<2>::specimen) continue;
+    if (a.group[id] != sph::Arrangement<2>::specimen) continue;
     const std::size_t i = run.slot(id);
     Spot s{a.position[id], a.volume[id], 0.0, Point(1.0, 0.0)};
-    if (p.kind[i] == kind::cracked) {
+    if (p.kind[i] == sph::kind::cracked) {
       s.damage = 1.0 - p.point[i].crack.integrity;
       s.normal = Point(p.point[i].frame(0, 0), p.point[i].frame(0, 1));
     }
@@ -198,9 +198,9 @@ std::vector<Spot> spots(const Simulation<2>& run, const Specimen& specimen) {
   return all;
 }
 
-PointCloud frame_of(const Simulation<2>& run, const Specimen& specimen) {
-  const Particles<2>& p = run.particles();
-  const Arrangement<2>& a = specimen.setup.arrangement;
+PointCloud frame_of(const sph::Simulation<2>& run, const Specimen& specimen) {
+  const sph::Particles<2>& p = run.particles();
+  const sph::Arrangement<2>& a = specimen.setup.arrangement;
   const Elasticity<double> bulk = make_material(specimen.setup.parameters, specimen.setup.setting).bulk;
   const bool updated = is_updated(specimen);
   PointCloud cloud;
@@ -227,7 +227,7 @@ PointCloud frame_of(const Simulation<2>& run, const Specimen& specimen) {
   const auto vector = [](std::vector<double>& values, double x, double y) { values.insert(values.end(), {x, y, 0.0}); };
   for (std::size_t id = 0; id < a.size(); ++id) {
     const std::size_t i = run.slot(id);
-    const bool cracked = p.kind[i] == kind::cracked;
+    const bool cracked = p.kind[i] == sph::kind::cracked;
     const Mat<double, 2, 2> q = to_space(run, i, updated);
     const Mat<double, 2, 2> stress = stress_in_space(run, i, updated);
     vector(cloud.points, p.position[0][i], p.position[1][i]);
@@ -259,4 +259,4 @@ double frame_bytes(std::size_t particles) {
   return (wide + single + cell) * static_cast<double>(particles) + 3000.0;
 }
 
-}  // namespace fpz::sph
+}  // namespace fpz::specimen

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-namespace fpz::sph {
+namespace fpz::specimen {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -46,14 +46,14 @@ const char* name_of(Ending e) {
   return e == Ending::finished ? "finished" : e == Ending::interrupted ? "interrupted" : "failed";
 }
 
-Json method_json(const Options<2>& o) {
+Json method_json(const sph::Options<2>& o) {
   const char* lengths[] = {"spacing", "band", "number"};
-  return {{"configuration", o.configuration == Configuration::reference ? "reference" : "updated"},
-          {"momentum", o.momentum == MomentumForm::adjoint ? "adjoint" : "paper"},
-          {"kernel", o.kernel == Kernel::cubic_spline ? "cubic_spline" : "wendland_c2"},
+  return {{"configuration", o.configuration == sph::Configuration::reference ? "reference" : "updated"},
+          {"momentum", o.momentum == sph::MomentumForm::adjoint ? "adjoint" : "paper"},
+          {"kernel", o.kernel == sph::Kernel::cubic_spline ? "cubic_spline" : "wendland_c2"},
           {"smoothing_ratio", o.smoothing_ratio},
           {"courant", o.courant},
-          {"rve_length", o.rve_length.rule == RveLength::Rule::number
+          {"rve_length", o.rve_length.rule == sph::RveLength::Rule::number
                              ? Json(o.rve_length.value)
                              : Json(lengths[static_cast<std::size_t>(o.rve_length.rule)])},
           {"integrator", to_string(o.method)},
@@ -145,7 +145,7 @@ std::string report_of(const Findings& f) {
 std::string summary_text(const SummaryInput& in) {
   const History& h = in.result.record.history;
   const Findings& f = in.findings;
-  const Particles<2>& p = in.run.particles();
+  const sph::Particles<2>& p = in.run.particles();
   Json j;
   j["scene"] = in.scene.name;
   j["version"] = FPZ_VERSION;
@@ -217,4 +217,4 @@ std::string summary_text(const SummaryInput& in) {
   return j.dump(2) + "\n";
 }
 
-}  // namespace fpz::sph
+}  // namespace fpz::specimen

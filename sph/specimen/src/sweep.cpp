@@ -25,7 +25,7 @@
 #include "fpz/io/output.hpp"
 #include "fpz/specimen/run.hpp"
 
-namespace fpz::sph {
+namespace fpz::specimen {
 namespace {
 
 namespace fs = std::filesystem;
@@ -383,4 +383,4 @@ std::size_t SweepResult::count(RunStatus status) const {
 
 SweepResult run_sweep(const Sweep& sweep, const SweepRequest& request) { return Sweeper(sweep, request).go(); }
 
-}  // namespace fpz::sph
+}  // namespace fpz::specimen

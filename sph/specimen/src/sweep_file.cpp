@@ -9,7 +9,7 @@
 #include "fpz/specimen/sweep.hpp"
 #include "scene_reader.hpp"
 
-namespace fpz::sph {
+namespace fpz::specimen {
 namespace {
 
 using namespace detail;
@@ -285,4 +285,4 @@ Sweep read_sweep(const fs::path& file, const Overrides& common) {
   return sweep;
 }
 
-}  // namespace fpz::sph
+}  // namespace fpz::specimen

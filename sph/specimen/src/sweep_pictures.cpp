@@ -10,7 +10,7 @@
 #include "fpz/specimen/sweep.hpp"
 #include "picture_parts.hpp"
 
-namespace fpz::sph {
+namespace fpz::specimen {
 namespace {
 
 namespace fs = std::filesystem;
@@ -180,4 +180,4 @@ PictureOutcome draw_sweep(const Sweep& sweep, const std::vector<SweepRow>& rows,
   return outcome;
 }
 
-}  // namespace fpz::sph
+}  // namespace fpz::specimen

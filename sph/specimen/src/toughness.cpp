@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace fpz::sph {
+namespace fpz::specimen {
 
 std::pair<double, double> IntensityFactors::at(double angle) const {
   const auto above = std::lower_bound(angle_deg.begin() + 1, angle_deg.end() - 1, angle) - angle_deg.begin();
@@ -18,4 +18,4 @@ StressIntensity stress_intensity(const SemicircularBending& s, double thickness,
   return {unit * s.Y_I, unit * s.Y_II};
 }
 
-}  // namespace fpz::sph
+}  // namespace fpz::specimen

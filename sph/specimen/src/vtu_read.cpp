@@ -7,7 +7,7 @@
 #include "fpz/io/json_locator.hpp"
 #include "fpz/specimen/vtu.hpp"
 
-namespace fpz::sph {
+namespace fpz::specimen {
 namespace {
 
 using io::InputError;
@@ -256,4 +256,4 @@ std::vector<Frame> read_pvd(const std::filesystem::path& file) {
   return frames;
 }
 
-}  // namespace fpz::sph
+}  // namespace fpz::specimen

@@ -6,7 +6,7 @@
 #include "fpz/io/problems.hpp"
 #include "fpz/specimen/vtu.hpp"
 
-namespace fpz::sph {
+namespace fpz::specimen {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "files are declared little-endian");
@@ -85,4 +85,4 @@ void write_pvd(const std::filesystem::path& file, const std::vector<Frame>& fram
   io::write_text(file, xml + "</Collection>\n</VTKFile>\n", true);
 }
 
-}  // namespace fpz::sph
+}  // namespace fpz::specimen

@@ -9,7 +9,7 @@
 
 namespace {
 
-using namespace fpz::sph;
+using namespace fpz::specimen;
 
 /// The measure itself: a crack of length one through a lattice turned by some angle, opening the particles within half
 /// of the width that the rule expects there.
@@ -41,9 +41,9 @@ double energy_ratio(double degrees) {
                  {"arrangement.angle_deg=" + std::to_string(degrees), "method.release_integrity=0.02",
                   "method.courant=0.9", "method.threads=1", "boundaries[0].velocity.y.speed=-0.02"});
   const Specimen specimen = make_specimen(scene);
-  Simulation<2> run(specimen.setup);
+  fpz::sph::Simulation<2> run(specimen.setup);
   while (run.time() < 5.5e-3) {
-    const Outcome o = run.step();
+    const fpz::sph::Outcome o = run.step();
     if (!o.ok()) throw std::runtime_error(o.message());
   }
   const double release_energy = scene.parameters.tensile_strength * scene.parameters.delta0;

@@ -7,7 +7,7 @@
 
 namespace {
 
-using namespace fpz::sph;
+using namespace fpz::specimen;
 constexpr double pi = std::numbers::pi;
 
 /// A unit square of particles with a straight crack through its middle, `columns` spacings wide, from side to side.

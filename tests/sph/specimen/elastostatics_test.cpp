@@ -8,6 +8,7 @@
 namespace fpz::sph::test {
 namespace {
 
+using specimen::Point;
 constexpr double pi = std::numbers::pi;
 
 /// Ring of outer radius 1 and inner radius `inner` under two opposite radial forces P per thickness at theta = 0 and
@@ -79,18 +80,18 @@ struct Comparison {
 };
 
 /// A ring of radius 1 m (a disc for inner = 0) pressed along x between two narrow platens.
-Comparison pressed(double inner, double spacing, Pattern::Kind kind) {
+Comparison pressed(double inner, double spacing, specimen::Pattern::Kind kind) {
   constexpr double half_width = 0.1;  // m, of the platens
   constexpr double speed = 1e-3;      // m/s: strains stay far below one
   constexpr double ramp = 0.01;       // s, twenty times the travel of a wave across it: no oscillation to speak of
-  Body body;
-  body.shape = Ring{Point::Zero(), inner, 1.0};
+  specimen::Body body;
+  body.shape = specimen::Ring{Point::Zero(), inner, 1.0};
   Scene<2> s;
   s.parameters = unbreakable();
-  s.arrangement = place_specimen(body, {kind, 0.0, Point::Zero(), false}, spacing);
+  s.arrangement = specimen::place_specimen(body, {kind, 0.0, Point::Zero(), false}, spacing);
   const std::size_t specimen = s.arrangement.size();
-  place_platen(s.arrangement, body.shape, {Point(1.0, 0.0), Point(1.0, 0.0), 2.0 * half_width, 3, true}, 0);
-  place_platen(s.arrangement, body.shape, {Point(-1.0, 0.0), Point(-1.0, 0.0), 2.0 * half_width, 3, true}, 1);
+  specimen::place_platen(s.arrangement, body.shape, {Point(1.0, 0.0), Point(1.0, 0.0), 2.0 * half_width, 3, true}, 0);
+  specimen::place_platen(s.arrangement, body.shape, {Point(-1.0, 0.0), Point(-1.0, 0.0), 2.0 * half_width, 3, true}, 1);
   const Motion still{0.0, 0.0};
   s.groups = {{"right", {Motion{-speed, ramp}, still}, true}, {"left", {Motion{speed, ramp}, still}, true}};
   s.options.threads = 1;
@@ -123,8 +124,8 @@ Comparison pressed(double inner, double spacing, Pattern::Kind kind) {
 
 /// What is left of the error with the finer spacing comes from the platens: bonded, they do not press evenly.
 TEST(Elastostatics, DiscBetweenPlatens) {
-  const Comparison coarse = pressed(0.0, 0.1, Pattern::Kind::lattice);
-  const Comparison fine = pressed(0.0, 0.05, Pattern::Kind::lattice);
+  const Comparison coarse = pressed(0.0, 0.1, specimen::Pattern::Kind::lattice);
+  const Comparison fine = pressed(0.0, 0.05, specimen::Pattern::Kind::lattice);
   RecordProperty("error_coarse", std::to_string(coarse.error));
   RecordProperty("error_fine", std::to_string(fine.error));
   EXPECT_NEAR(fine.across, 1.0, 0.02);
@@ -136,8 +137,8 @@ TEST(Elastostatics, DiscBetweenPlatens) {
 /// Ring-wise particles: the whole stress field converges, with about the first order.
 TEST(Elastostatics, RingBetweenPlatens) {
   for (const double inner : {0.3, 0.5}) {
-    const Comparison coarse = pressed(inner, 0.1, Pattern::Kind::rings);
-    const Comparison fine = pressed(inner, 0.05, Pattern::Kind::rings);
+    const Comparison coarse = pressed(inner, 0.1, specimen::Pattern::Kind::rings);
+    const Comparison fine = pressed(inner, 0.05, specimen::Pattern::Kind::rings);
     const double order = std::log2(coarse.error / fine.error);
     RecordProperty(inner < 0.4 ? "order_hole_0.3" : "order_hole_0.5", std::to_string(order));
     EXPECT_NEAR(fine.across, 1.0, 0.06) << inner;

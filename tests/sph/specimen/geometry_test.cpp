@@ -7,7 +7,7 @@
 
 namespace {
 
-using namespace fpz::sph;
+using namespace fpz::specimen;
 constexpr double pi = std::numbers::pi;
 
 Notch notch(Point mouth, double length, double degrees, double width) {

@@ -9,10 +9,10 @@
 
 namespace {
 
-using namespace fpz::sph;
+using namespace fpz::specimen;
 constexpr double pi = std::numbers::pi;
 
-double volume(const Arrangement<2>& a) { return std::accumulate(a.volume.begin(), a.volume.end(), 0.0); }
+double volume(const fpz::sph::Arrangement<2>& a) { return std::accumulate(a.volume.begin(), a.volume.end(), 0.0); }
 
 Pattern pattern(Pattern::Kind kind, double degrees = 0.0) {
   Pattern p;
@@ -28,7 +28,8 @@ TEST(Placing, VolumesSumToTheTrueArea) {
                          {HalfDisc{Point(0, 0), 1.0}, {}, {{Point(0, 0), Point(-0.2, 0.3), 0.1}}}};
   for (const Body& b : bodies) {
     for (const auto kind : {Pattern::Kind::lattice, Pattern::Kind::sheared, Pattern::Kind::rings}) {
-      const Arrangement<2> a = place_specimen(b, pattern(kind, kind == Pattern::Kind::rings ? 0.0 : 30.0), 0.04);
+      const fpz::sph::Arrangement<2> a =
+          place_specimen(b, pattern(kind, kind == Pattern::Kind::rings ? 0.0 : 30.0), 0.04);
       EXPECT_NEAR(volume(a), area(b), 1e-12);
       for (const Point& x : a.position) EXPECT_TRUE(contains(b, x));
       EXPECT_NEAR(a.volume.back(), 0.04 * 0.04, 0.2 * 0.04 * 0.04);
@@ -40,7 +41,7 @@ TEST(Placing, AFittedLatticeFillsARectangleWithWholeCells) {
   const Body b{Rectangle{Point(-0.16, 0), Point(0.16, 0.08)}, {}, {}};
   Pattern p = pattern(Pattern::Kind::lattice);
   p.fit = true;
-  const Arrangement<2> a = place_specimen(b, p, 0.003);
+  const fpz::sph::Arrangement<2> a = place_specimen(b, p, 0.003);
   EXPECT_EQ(a.size(), 107u * 27u);
   EXPECT_NEAR(a.position.front()[0], -0.16 + 0.5 * 0.32 / 107, 1e-15);
   EXPECT_NEAR(a.position.back()[1], 0.08 - 0.5 * 0.08 / 27, 1e-15);
@@ -51,7 +52,7 @@ TEST(Placing, NoParticleLiesOnACut) {
   const Body b{Rectangle{Point(-0.16, 0), Point(0.16, 0.08)}, {}, {{Point(0, 0), Point(0, 0.008), 0.0}}};
   Pattern p = pattern(Pattern::Kind::lattice);
   p.fit = true;
-  const Arrangement<2> a = place_specimen(b, p, 0.003);
+  const fpz::sph::Arrangement<2> a = place_specimen(b, p, 0.003);
   EXPECT_EQ(a.size() % 27u, 0u);
   for (const Point& x : a.position) EXPECT_GT(std::abs(x[0]), 0.4 * 0.003);
   EXPECT_NEAR(volume(a), 0.32 * 0.08, 1e-14);
@@ -63,7 +64,7 @@ TEST(Placing, ColumnsFollowAnInclinedNotch) {
       const double angle = degrees * pi / 180.0;
       const Notch n{Point(0, 0), 0.4 * Point(-std::sin(angle), std::cos(angle)), 0.0};
       const Body b{HalfDisc{Point(0, 0), 1.0}, {}, {n}};
-      const Arrangement<2> a = place_specimen(b, pattern(kind, degrees), 0.02);
+      const fpz::sph::Arrangement<2> a = place_specimen(b, pattern(kind, degrees), 0.02);
       double nearest = 1.0;
       for (const Point& x : a.position) {
         if (x.dot(along(n)) > 0.0 && x.dot(along(n)) < 0.4) nearest = std::min(nearest, std::abs(x.dot(across(n))));
@@ -76,7 +77,7 @@ TEST(Placing, ColumnsFollowAnInclinedNotch) {
 
 TEST(Placing, RingsAreSymmetricAboutBothAxes) {
   for (const Body& b : {Body{Disc{Point(0, 0), 1.0}, {}, {}}, Body{Ring{Point(0, 0), 0.2, 1.0}, {}, {}}}) {
-    const Arrangement<2> a = place_specimen(b, pattern(Pattern::Kind::rings), 0.05);
+    const fpz::sph::Arrangement<2> a = place_specimen(b, pattern(Pattern::Kind::rings), 0.05);
     const auto has = [&](const Point& wanted) {
       for (const Point& x : a.position) {
         if ((x - wanted).norm() < 1e-9) return true;
@@ -96,7 +97,7 @@ TEST(Placing, RingsAreSymmetricAboutBothAxes) {
 }
 
 TEST(Placing, PlatensLieOnTheSurface) {
-  Arrangement<2> a;
+  fpz::sph::Arrangement<2> a;
   a.spacing = 0.02;
   const Disc disc{Point(0, 0), 1.0};
   place_platen(a, disc, {Point(0, 1), Point(0, 1), 0.2, 3, true}, 0);
@@ -106,7 +107,7 @@ TEST(Placing, PlatensLieOnTheSurface) {
     EXPECT_NEAR(a.position[i][1], std::sqrt(1.0 - x * x) + 0.01, 1e-9);
     EXPECT_NEAR(a.position[i + 2][1] - a.position[i][1], 0.04, 1e-12);
   }
-  Arrangement<2> flat;
+  fpz::sph::Arrangement<2> flat;
   flat.spacing = 0.02;
   place_platen(flat, disc, {Point(0, -1), Point(0, -1), 0.2, 3, false}, 4);
   double highest = -2.0;

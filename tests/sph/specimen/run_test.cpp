@@ -13,7 +13,7 @@
 
 namespace {
 
-using namespace fpz::sph;
+using namespace fpz::specimen;
 namespace fs = std::filesystem;
 
 const fs::path scenes = fs::path(FPZ_DATA_DIR) / "scenes";

@@ -7,7 +7,7 @@
 
 namespace {
 
-using namespace fpz::sph;
+using namespace fpz::specimen;
 using fpz::io::InputError;
 
 const std::filesystem::path scenes = std::filesystem::path(FPZ_DATA_DIR) / "scenes";
@@ -40,9 +40,9 @@ TEST(SceneFile, OverridesChangeAnyEntry) {
                  {"spacing=0.002", "method.configuration=updated", "notches[0].angle_deg=30", "method.rve_length=0.005",
                   "boundaries[0].velocity.y.speed=-0.5", "stop.deflection=1e-5", "material=../materials/bellego.json"});
   EXPECT_EQ(s.spacing, 0.002);
-  EXPECT_EQ(s.options.configuration, Configuration::updated);
+  EXPECT_EQ(s.options.configuration, fpz::sph::Configuration::updated);
   EXPECT_NEAR(s.body.notches[0].tip[0], -0.004, 1e-12);
-  EXPECT_EQ(s.options.rve_length.rule, RveLength::Rule::number);
+  EXPECT_EQ(s.options.rve_length.rule, fpz::sph::RveLength::Rule::number);
   EXPECT_EQ(s.boundaries[0].velocity[1]->speed, -0.5);
   EXPECT_EQ(*s.stop.deflection, 1e-5);
   EXPECT_EQ(s.parameters.cohesion, 2.9e6);

@@ -14,7 +14,7 @@
 
 namespace {
 
-using namespace fpz::sph;
+using namespace fpz::specimen;
 namespace fs = std::filesystem;
 
 const fs::path data = FPZ_DATA_DIR;

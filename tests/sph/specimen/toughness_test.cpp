@@ -12,7 +12,7 @@
 
 namespace {
 
-using namespace fpz::sph;
+using namespace fpz::specimen;
 
 const std::filesystem::path data = FPZ_DATA_DIR;
 

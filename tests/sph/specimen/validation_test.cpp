@@ -9,7 +9,7 @@
 #include "fpz/specimen/scene_file.hpp"
 #include "fpz/specimen/specimen.hpp"
 
-namespace fpz::sph {
+namespace fpz::specimen {
 namespace {
 
 const std::filesystem::path scenes = std::filesystem::path(FPZ_DATA_DIR) / "scenes";
@@ -25,11 +25,11 @@ struct Tested {
 Tested test(const SceneFile& scene, double until) {
   constexpr int window = 50;
   const Specimen specimen = make_specimen(scene);
-  Simulation<2> run(specimen.setup);
+  sph::Simulation<2> run(specimen.setup);
   Tested t;
   double load = 0.0, sum = 0.0;
   while (run.time() < scene.stop.time && (run.cracked() == 0 || load > until * t.peak)) {
-    if (const Outcome o = run.step(); !o.ok()) {
+    if (const sph::Outcome o = run.step(); !o.ok()) {
       ADD_FAILURE() << o.message();
       return t;
     }
@@ -103,4 +103,4 @@ TEST(Ring, FirstCrackOnTheLoadLineAndTheLoadFallsWithTheHole) {
 }
 
 }  // namespace
-}  // namespace fpz::sph
+}  // namespace fpz::specimen

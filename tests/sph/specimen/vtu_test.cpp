@@ -10,7 +10,7 @@
 
 namespace {
 
-using namespace fpz::sph;
+using namespace fpz::specimen;
 namespace fs = std::filesystem;
 
 fs::path folder() {
@@ -61,7 +61,7 @@ TEST(Vtu, CollectionsKeepTimesAndFiles) {
 TEST(ParticleFile, CsvVtuAndLegacyVtk) {
   const fs::path csv = folder() / "p.csv";
   std::ofstream(csv) << "x,y,volume,group\n0,0,1e-6,-1\n0.001,0,2e-6,0\n";
-  const Arrangement<2> a = read_particles(csv, 1e-3);
+  const fpz::sph::Arrangement<2> a = read_particles(csv, 1e-3);
   ASSERT_EQ(a.size(), 2u);
   EXPECT_EQ(a.volume[1], 2e-6);
   EXPECT_EQ(a.group[1], 0);
@@ -70,7 +70,7 @@ TEST(ParticleFile, CsvVtuAndLegacyVtk) {
   std::ofstream(vtk)
       << "# vtk DataFile Version 3.0\nparticles\nASCII\nDATASET POLYDATA\nPOINTS 2 double\n0 0 0\n1 2 0\n"
          "POINT_DATA 2\nSCALARS volume double 1\nLOOKUP_TABLE default\n0.5 0.25\n";
-  const Arrangement<2> b = read_particles(vtk, 0.5);
+  const fpz::sph::Arrangement<2> b = read_particles(vtk, 0.5);
   ASSERT_EQ(b.size(), 2u);
   EXPECT_EQ(b.volume[1], 0.25);
   EXPECT_EQ(b.position[1], Point(1, 2));

@@ -5,7 +5,7 @@
 
 #include "fpz/specimen/geometry.hpp"
 
-namespace fpz::sph {
+namespace fpz::specimen {
 
 /// A particle of the specimen in the undeformed body.
 struct Spot {
@@ -37,4 +37,4 @@ struct CrackPath {
 [[nodiscard]] std::vector<double> piece_areas(const std::vector<Spot>& spots, const std::vector<Notch>& notches,
                                               double spacing, double threshold = 0.99);
 
-}  // namespace fpz::sph
+}  // namespace fpz::specimen

@@ -5,7 +5,7 @@
 
 #include "fpz/specimen/run.hpp"
 
-namespace fpz::sph {
+namespace fpz::specimen {
 
 struct Estimate {
   Schedule schedule;
@@ -20,4 +20,4 @@ struct Estimate {
 [[nodiscard]] Estimate estimate(const SceneFile& scene, const Specimen& specimen, int threads);
 [[nodiscard]] std::string estimate_text(const SceneFile& scene, const Specimen& specimen, const Estimate& e);
 
-}  // namespace fpz::sph
+}  // namespace fpz::specimen

@@ -8,7 +8,7 @@
 #include "fpz/sph/cut.hpp"
 #include "fpz/types.hpp"
 
-namespace fpz::sph {
+namespace fpz::specimen {
 
 using Point = Vec<double, 2>;
 
@@ -67,9 +67,9 @@ struct Body {
 [[nodiscard]] Point across(const Notch& notch);
 
 /// The centre line of the notch.
-[[nodiscard]] Cut<2> cut_of(const Notch& notch);
+[[nodiscard]] sph::Cut<2> cut_of(const Notch& notch);
 
 /// Closed lines for drawing: outer boundary first, then holes and slots.
 [[nodiscard]] std::vector<std::vector<Point>> outlines(const Body& body);
 
-}  // namespace fpz::sph
+}  // namespace fpz::specimen

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace fpz::sph {
+namespace fpz::specimen {
 
 struct History {
   std::vector<std::string> columns;
@@ -22,4 +22,4 @@ struct History {
   [[nodiscard]] std::string to_csv() const;
 };
 
-}  // namespace fpz::sph
+}  // namespace fpz::specimen

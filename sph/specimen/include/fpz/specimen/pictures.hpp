@@ -7,7 +7,7 @@
 
 #include "fpz/specimen/specimen.hpp"
 
-namespace fpz::sph {
+namespace fpz::specimen {
 
 struct PictureOutcome {
   std::vector<std::filesystem::path> files;
@@ -23,4 +23,4 @@ struct PictureOutcome {
 [[nodiscard]] PictureOutcome draw_scene(const SceneFile& scene, const Specimen& specimen,
                                         const std::filesystem::path& folder, bool force);
 
-}  // namespace fpz::sph
+}  // namespace fpz::specimen

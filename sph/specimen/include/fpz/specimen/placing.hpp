@@ -8,7 +8,7 @@
 #include "fpz/specimen/geometry.hpp"
 #include "fpz/sph/arrangement.hpp"
 
-namespace fpz::sph {
+namespace fpz::specimen {
 
 /// How the particles of the specimen lie.
 struct Pattern {
@@ -26,7 +26,7 @@ struct Pattern {
 /// Particles of the specimen. All have one volume (rings: one per ring), such that the sum is the area of the body
 /// exactly. `spacing` is the wanted distance. Throws std::invalid_argument when the pattern does not suit the shape or
 /// no particle fits.
-[[nodiscard]] Arrangement<2> place_specimen(const Body& body, const Pattern& pattern, double spacing);
+[[nodiscard]] sph::Arrangement<2> place_specimen(const Body& body, const Pattern& pattern, double spacing);
 
 /// A roller or platen: columns of particles on the surface.
 struct Platen {
@@ -38,6 +38,6 @@ struct Platen {
 };
 
 /// Adds the particles of a platen as group `group`. Throws std::invalid_argument when a column misses the body.
-void place_platen(Arrangement<2>& arrangement, const Shape& shape, const Platen& platen, int group);
+void place_platen(sph::Arrangement<2>& arrangement, const Shape& shape, const Platen& platen, int group);
 
-}  // namespace fpz::sph
+}  // namespace fpz::specimen

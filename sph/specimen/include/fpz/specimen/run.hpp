@@ -10,7 +10,7 @@
 #include "fpz/specimen/history.hpp"
 #include "fpz/specimen/specimen.hpp"
 
-namespace fpz::sph {
+namespace fpz::specimen {
 
 struct Progress {
   double fraction = 0.0;  ///< 0 to 1, of the time or of the deflection at which the run stops, whichever is further
@@ -79,4 +79,4 @@ void write_checkpoint(const std::filesystem::path& file, const Checkpoint& check
 /// Throws io::InputError when the file is missing, damaged or of another version.
 [[nodiscard]] Checkpoint read_checkpoint(const std::filesystem::path& file);
 
-}  // namespace fpz::sph
+}  // namespace fpz::specimen

@@ -16,7 +16,7 @@
 #include "fpz/sph/group.hpp"
 #include "fpz/sph/options.hpp"
 
-namespace fpz::sph {
+namespace fpz::specimen {
 
 /// Particles from a file instead of a pattern (docs/scenes.md, "Particles from a file").
 struct ParticleFile {
@@ -27,7 +27,7 @@ struct ParticleFile {
 struct Boundary {
   std::string name;
   std::optional<Platen> platen;  ///< none: its particles come from the particle file
-  std::array<std::optional<Motion>, 2> velocity;
+  std::array<std::optional<sph::Motion>, 2> velocity;
   bool elastic = true;
 };
 
@@ -88,7 +88,7 @@ struct SceneFile {
   Pattern pattern;
   std::optional<ParticleFile> particles;
   std::vector<Boundary> boundaries;
-  Options<2> options;
+  sph::Options<2> options;
   std::map<std::string, Gauge> gauges;  ///< "load" and "deflection" are always there
   std::optional<SemicircularBending> toughness;
   StopRules stop;
@@ -114,4 +114,4 @@ void apply_override(io::JsonValue& root, const std::string& assignment, const st
 /// A tree as JSON text, two spaces per level, numbers as they were spelt.
 [[nodiscard]] std::string to_text(const io::JsonValue& root);
 
-}  // namespace fpz::sph
+}  // namespace fpz::specimen

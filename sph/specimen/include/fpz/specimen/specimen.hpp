@@ -10,7 +10,7 @@
 #include "fpz/specimen/vtu.hpp"
 #include "fpz/sph/simulation.hpp"
 
-namespace fpz::sph {
+namespace fpz::specimen {
 
 /// A gauge that knows its particles. Value: force and displacement N and m, stress Pa.
 struct BoundGauge {
@@ -24,7 +24,7 @@ struct BoundGauge {
 
 /// Everything that a run needs besides its output.
 struct Specimen {
-  Scene<2> setup;
+  sph::Scene<2> setup;
   std::map<std::string, BoundGauge> gauges;
   double area = 0.0;  ///< of the specimen without boundary particles, m^2
 };
@@ -34,19 +34,19 @@ struct Specimen {
 
 /// Particles from a CSV (columns x, y; optional volume, group), .vtu or legacy .vtk file (point data volume, group).
 /// Without volumes all have spacing^2. Group -1 is the specimen, others are indices of boundaries.
-[[nodiscard]] Arrangement<2> read_particles(const std::filesystem::path& file, double spacing);
+[[nodiscard]] sph::Arrangement<2> read_particles(const std::filesystem::path& file, double spacing);
 
 /// Value of a gauge at the present step. Forces are for the whole thickness.
-[[nodiscard]] double measure(const BoundGauge& gauge, const Simulation<2>& run, double thickness);
+[[nodiscard]] double measure(const BoundGauge& gauge, const sph::Simulation<2>& run, double thickness);
 
 /// The particles of the specimen for the crack measures (without boundary particles).
-[[nodiscard]] std::vector<Spot> spots(const Simulation<2>& run, const Specimen& specimen);
+[[nodiscard]] std::vector<Spot> spots(const sph::Simulation<2>& run, const Specimen& specimen);
 
 /// All particles with their fields for a VTU file, in the order of the arrangement: group, damage, crack_normal, jump,
 /// stress (xx, yy, xy), velocity, displacement, elastic_energy (J/m^3), dissipated_energy (per crack area, J/m^2).
-[[nodiscard]] PointCloud frame_of(const Simulation<2>& run, const Specimen& specimen);
+[[nodiscard]] PointCloud frame_of(const sph::Simulation<2>& run, const Specimen& specimen);
 
 /// Size of the file of such a frame, about.
 [[nodiscard]] double frame_bytes(std::size_t particles);
 
-}  // namespace fpz::sph
+}  // namespace fpz::specimen

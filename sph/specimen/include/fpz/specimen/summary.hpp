@@ -7,7 +7,7 @@
 
 #include "fpz/specimen/run.hpp"
 
-namespace fpz::sph {
+namespace fpz::specimen {
 
 /// All in SI, forces and energies for the whole thickness. What cannot be told is NaN (null in the file).
 struct Findings {
@@ -35,7 +35,7 @@ struct Findings {
 struct SummaryInput {
   const SceneFile& scene;
   const Specimen& specimen;
-  const Simulation<2>& run;
+  const sph::Simulation<2>& run;
   const RunResult& result;
   const Findings& findings;
   const std::vector<CrackPath>& paths;
@@ -43,4 +43,4 @@ struct SummaryInput {
 };
 [[nodiscard]] std::string summary_text(const SummaryInput& input);
 
-}  // namespace fpz::sph
+}  // namespace fpz::specimen

@@ -10,7 +10,7 @@
 #include "fpz/specimen/pictures.hpp"
 #include "fpz/specimen/scene_file.hpp"
 
-namespace fpz::sph {
+namespace fpz::specimen {
 
 struct SweepRun {
   std::size_t series = 0;        ///< index of the series
@@ -95,4 +95,4 @@ struct SweepResult {
 [[nodiscard]] PictureOutcome draw_sweep(const Sweep& sweep, const std::vector<SweepRow>& rows,
                                         const std::filesystem::path& folder);
 
-}  // namespace fpz::sph
+}  // namespace fpz::specimen

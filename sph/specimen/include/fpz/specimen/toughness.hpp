@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-namespace fpz::sph {
+namespace fpz::specimen {
 
 /// Stress intensity factors of the specimen, made dimensionless by eqs 68-69, over the angle of its notch.
 struct IntensityFactors {
@@ -30,4 +30,4 @@ struct StressIntensity {
 /// K = P / (2 r t) sqrt(pi a) Y (eqs 68-69), for a load P in N on a thickness t in m.
 [[nodiscard]] StressIntensity stress_intensity(const SemicircularBending& specimen, double thickness, double load);
 
-}  // namespace fpz::sph
+}  // namespace fpz::specimen

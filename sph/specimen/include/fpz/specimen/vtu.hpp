@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace fpz::sph {
+namespace fpz::specimen {
 
 /// Values of all points, point after point.
 struct PointData {
@@ -39,4 +39,4 @@ struct Frame {
 void write_pvd(const std::filesystem::path& file, const std::vector<Frame>& frames);
 [[nodiscard]] std::vector<Frame> read_pvd(const std::filesystem::path& file);
 
-}  // namespace fpz::sph
+}  // namespace fpz::specimen
