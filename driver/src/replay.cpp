@@ -3,7 +3,9 @@
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <sstream>
+#include <string_view>
 
 #include "fpz/capture.hpp"
 #include "fpz/driver/dimension.hpp"
@@ -14,36 +16,40 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Reads the members of one JSON object; every complaint names the file and the key.
+/// The archive of visit_capture() that reads: the members of one JSON object. Every complaint names the file and the
+/// key.
 class Reader {
  public:
   Reader(const Json& object, std::string place) : object_(object), place_(std::move(place)) {
     if (!object_.is_object()) throw InputError(place_ + ": not a JSON object");
   }
 
-  [[nodiscard]] const Json& at(const char* key) const {
-    const auto found = object_.find(key);
-    if (found == object_.end()) throw InputError(path(key) + " is missing");
-    return *found;
+  template <class F>
+  void object(std::string_view key, const F& body) {
+    Reader inside(at(key), path(key));
+    body(inside);
   }
-  [[nodiscard]] Reader object(const char* key) const { return {at(key), path(key)}; }
-  [[nodiscard]] double number(const char* key) const { return number(at(key), key); }
-  [[nodiscard]] int integer(const char* key) const {
+  void operator()(std::string_view key, double& x) const { x = number(at(key), key); }
+  void operator()(std::string_view key, int& x) const {
     const Json& j = at(key);
     if (!j.is_number_integer()) throw InputError(path(key) + ": not an integer");
-    return j.get<int>();
+    x = j.get<int>();
   }
-  [[nodiscard]] bool boolean(const char* key) const {
+  void operator()(std::string_view key, bool& x) const {
     if (!at(key).is_boolean()) throw InputError(path(key) + ": not true or false");
-    return at(key).get<bool>();
+    x = at(key).get<bool>();
   }
-  [[nodiscard]] std::string text(const char* key) const {
+  template <Worded E>
+  void operator()(std::string_view key, E& x) const {
     if (!at(key).is_string()) throw InputError(path(key) + ": not a text");
-    return at(key).get<std::string>();
+    const auto word = at(key).get<std::string>();
+    const std::optional<E> known = from_word<E>(word);
+    if (!known) throw InputError(path(key) + ": \"" + word + "\" is none of " + all_words<E>());
+    x = *known;
   }
   /// A vector, or a matrix written row by row.
-  template <class Matrix>
-  void fill(const char* key, Matrix& m) const {
+  template <class Derived>
+  void operator()(std::string_view key, Eigen::PlainObjectBase<Derived>& m) const {
     const Json& j = at(key);
     if (!j.is_array() || static_cast<Eigen::Index>(j.size()) != m.size()) {
       throw InputError(path(key) + ": not an array of " + std::to_string(m.size()) + " numbers");
@@ -52,10 +58,15 @@ class Reader {
       m(i / m.cols(), i % m.cols()) = number(j[static_cast<std::size_t>(i)], key);
     }
   }
-  [[nodiscard]] std::string path(const char* key) const { return place_ + ", \"" + key + "\""; }
+  [[nodiscard]] std::string path(std::string_view key) const { return place_ + ", \"" + std::string(key) + "\""; }
 
  private:
-  [[nodiscard]] double number(const Json& j, const char* key) const {
+  [[nodiscard]] const Json& at(std::string_view key) const {
+    const auto found = object_.find(key);
+    if (found == object_.end()) throw InputError(path(key) + " is missing");
+    return *found;
+  }
+  [[nodiscard]] double number(const Json& j, std::string_view key) const {
     if (j.is_number()) return j.get<double>();
     if (j == "nan") return std::numeric_limits<double>::quiet_NaN();
     if (j == "inf") return std::numeric_limits<double>::infinity();
@@ -66,76 +77,6 @@ class Reader {
   const Json& object_;
   std::string place_;
 };
-
-template <class Enum>
-Enum named(const Reader& r, const char* key, std::initializer_list<Enum> values) {
-  const std::string name = r.text(key);
-  std::string known;
-  for (const Enum e : values) {
-    if (name == to_string(e)) return e;
-    known.append(" ").append(to_string(e));
-  }
-  throw InputError(r.path(key) + ": \"" + name + "\" is none of" + known);
-}
-
-Setting read_setting(const Reader& r) {
-  return named(r, "setting", {Setting::plane_strain, Setting::plane_stress, Setting::three_d});
-}
-
-Parameters read_parameters(const Reader& r) {
-  const Reader m = r.object("material");
-  Parameters p;
-  p.young_modulus = m.number("young_modulus");
-  p.poisson_ratio = m.number("poisson_ratio");
-  p.density = m.number("density");
-  p.tensile_strength = m.number("tensile_strength");
-  p.cohesion = m.number("cohesion");
-  p.friction_angle_deg = m.number("friction_angle_deg");
-  p.dilation_angle_deg = m.number("dilation_angle_deg");
-  p.delta0 = m.number("delta0");
-  p.normal_stiffness = m.number("normal_stiffness");
-  p.shear_stiffness = m.number("shear_stiffness");
-  p.rve_length = r.number("rve_length");
-  return p;
-}
-
-Options read_options(const Reader& r) {
-  Options o;
-  o.method = named(r, "name", {Method::paper, Method::implicit, Method::accurate});
-  o.tolerance = r.number("tolerance");
-  o.max_iterations = r.integer("max_iterations");
-  o.max_substeps = r.integer("max_substeps");
-  o.scan_resolution_deg = r.number("scan_degrees");
-  r.fill("preferred_normal", o.preferred_normal);
-  return o;
-}
-
-template <int Dim>
-Capture<Dim> read_capture(const Reader& r) {
-  Capture<Dim> c;
-  c.parameters = read_parameters(r);
-  c.setting = read_setting(r);
-  c.options = read_options(r.object("integrator"));
-  const Reader b = r.object("begin");
-  b.fill("strain", c.begin.strain);
-  b.fill("stress", c.begin.stress);
-  c.begin.cracked = b.boolean("cracked");
-  if (c.begin.cracked) {
-    b.fill("frame", c.begin.frame);
-    b.fill("traction", c.begin.crack.traction);
-    b.fill("jump", c.begin.crack.jump);
-    b.fill("plastic_jump", c.begin.crack.plastic_jump);
-    b.fill("offset", c.begin.crack.offset);
-    c.begin.crack.slip = b.number("slip");
-    c.begin.crack.integrity = b.number("integrity");
-    c.begin.crack.dissipated = b.number("dissipated");
-  }
-  r.fill("strain_increment", c.strain_increment);
-  c.status =
-      named(r, "status",
-            {Status::ok, Status::non_convergence, Status::snap_back, Status::no_plastic_flow, Status::invalid_input});
-  return c;
-}
 
 template <int Dim>
 void describe(std::ostream& out, const char* name, const State<double, Dim>& s) {
@@ -150,8 +91,9 @@ void describe(std::ostream& out, const char* name, const State<double, Dim>& s) 
 }
 
 template <int Dim>
-Replay repeat(const Reader& reader) {
-  const Capture<Dim> c = read_capture<Dim>(reader);
+Replay repeat(Reader& reader) {
+  Capture<Dim> c;
+  visit_capture(reader, c);
   const Material<double> material = make_material(c.parameters, c.setting);
   Replay out;
   out.captured = c.status;
@@ -190,9 +132,15 @@ Replay replay(const std::filesystem::path& file) {
   if (!in) throw InputError(file.string() + ": cannot be read");
   const Json json = Json::parse(in, nullptr, false);
   if (json.is_discarded()) throw InputError(file.string() + ": not JSON");
-  const Reader reader(json, file.string());
-  if (reader.integer("fpz_capture") != 1) throw InputError(reader.path("fpz_capture") + ": only version 1 is known");
-  return with_dimension(read_setting(reader), [&](auto dim) { return repeat<decltype(dim)::value>(reader); });
+  Reader reader(json, file.string());
+  int version = 0;
+  reader("fpz_capture", version);
+  if (version != capture_version) {
+    throw InputError(reader.path("fpz_capture") + ": only version " + std::to_string(capture_version) + " is known");
+  }
+  Setting setting{};
+  reader("setting", setting);
+  return with_dimension(setting, [&](auto dim) { return repeat<decltype(dim)::value>(reader); });
 }
 
 }  // namespace fpz::driver

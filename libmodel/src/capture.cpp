@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <fstream>
 #include <string>
+#include <string_view>
 #include <system_error>
 
 namespace fpz {
@@ -17,94 +18,63 @@ std::string number(double x) {
   return text;
 }
 
-/// A JSON object or array body, one entry a line.
+/// The archive of visit_capture() that writes JSON objects, one entry a line.
 class Writer {
  public:
   explicit Writer(std::ostream& out) : out_(out) {}
 
-  void open(const char* key, char bracket) {
+  /// The whole file: one object without a key.
+  template <class F>
+  void root(const F& body) {
+    braces(body);
+    out_ << '\n';
+  }
+  template <class F>
+  void object(std::string_view key, const F& body) {
     line(key);
-    out_ << bracket;
-    first_ = true;
-    ++depth_;
+    braces(body);
   }
-  void close(char bracket) {
-    --depth_;
-    out_ << '\n' << std::string(static_cast<std::size_t>(2 * depth_), ' ') << bracket;
-    first_ = false;
+  void operator()(std::string_view key, double x) { entry(key, number(x)); }
+  void operator()(std::string_view key, int x) { entry(key, std::to_string(x)); }
+  void operator()(std::string_view key, bool x) { entry(key, x ? "true" : "false"); }
+  template <Worded E>
+  void operator()(std::string_view key, E x) {
+    entry(key, std::string("\"") + to_string(x) + "\"");
   }
-  void raw(const char* key, const std::string& text) {
-    line(key);
-    out_ << text;
-  }
-  void entry(const char* key, double x) { raw(key, number(x)); }
-  void text(const char* key, const char* value) { raw(key, std::string("\"") + value + "\""); }
   template <class Derived>
-  void entry(const char* key, const Eigen::DenseBase<Derived>& a) {
+  void operator()(std::string_view key, const Eigen::DenseBase<Derived>& a) {
     std::string list = "[";
     for (Eigen::Index i = 0; i < a.rows(); ++i) {
       for (Eigen::Index j = 0; j < a.cols(); ++j) list += (list.size() > 1 ? ", " : "") + number(a(i, j));
     }
-    raw(key, list + "]");
+    entry(key, list + "]");
   }
 
  private:
-  void line(const char* key) {
-    if (depth_ > 0) out_ << (first_ ? "\n" : ",\n") << std::string(static_cast<std::size_t>(2 * depth_), ' ');
-    if (*key != '\0') out_ << '"' << key << "\": ";
+  template <class F>
+  void braces(const F& body) {
+    out_ << '{';
+    first_ = true;
+    ++depth_;
+    body(*this);
+    --depth_;
+    out_ << '\n' << indent() << '}';
     first_ = false;
   }
+  void entry(std::string_view key, const std::string& text) {
+    line(key);
+    out_ << text;
+  }
+  void line(std::string_view key) {
+    out_ << (first_ ? "\n" : ",\n") << indent() << '"' << key << "\": ";
+    first_ = false;
+  }
+  [[nodiscard]] std::string indent() const { return std::string(static_cast<std::size_t>(2 * depth_), ' '); }
 
   std::ostream& out_;
   bool first_ = true;
   int depth_ = 0;
 };
-
-void write_parameters(Writer& w, const Parameters& p) {
-  w.open("material", '{');
-  w.entry("young_modulus", p.young_modulus);
-  w.entry("poisson_ratio", p.poisson_ratio);
-  w.entry("density", p.density);
-  w.entry("tensile_strength", p.tensile_strength);
-  w.entry("cohesion", p.cohesion);
-  w.entry("friction_angle_deg", p.friction_angle_deg);
-  w.entry("dilation_angle_deg", p.dilation_angle_deg);
-  w.entry("delta0", p.delta0);
-  w.entry("normal_stiffness", p.normal_stiffness);
-  w.entry("shear_stiffness", p.shear_stiffness);
-  w.close('}');
-  w.entry("rve_length", p.rve_length);
-}
-
-void write_options(Writer& w, const Options& o) {
-  w.open("integrator", '{');
-  w.text("name", to_string(o.method));
-  w.entry("tolerance", o.tolerance);
-  w.entry("max_iterations", o.max_iterations);
-  w.entry("max_substeps", o.max_substeps);
-  w.entry("scan_degrees", o.scan_resolution_deg);
-  w.entry("preferred_normal", o.preferred_normal);
-  w.close('}');
-}
-
-template <int Dim>
-void write_state(Writer& w, const State<double, Dim>& s) {
-  w.open("begin", '{');
-  w.entry("strain", s.strain);
-  w.entry("stress", s.stress);
-  w.raw("cracked", s.cracked ? "true" : "false");
-  if (s.cracked) {
-    w.entry("frame", s.frame);  // rows n, s1[, s2]
-    w.entry("traction", s.crack.traction);
-    w.entry("jump", s.crack.jump);
-    w.entry("plastic_jump", s.crack.plastic_jump);
-    w.entry("offset", s.crack.offset);
-    w.entry("slip", s.crack.slip);
-    w.entry("integrity", s.crack.integrity);
-    w.entry("dissipated", s.crack.dissipated);
-  }
-  w.close('}');
-}
 
 }  // namespace
 
@@ -114,17 +84,10 @@ bool write_capture(const std::filesystem::path& file, const Capture<Dim>& c) {
   draft += ".part";
   {
     std::ofstream out(draft);
-    Writer w(out);
-    w.open("", '{');
-    w.entry("fpz_capture", 1);
-    w.text("setting", to_string(c.setting));
-    write_parameters(w, c.parameters);
-    write_options(w, c.options);
-    write_state(w, c.begin);
-    w.entry("strain_increment", c.strain_increment);
-    w.text("status", to_string(c.status));
-    w.close('}');
-    out << '\n';
+    Writer(out).root([&c](Writer& w) {
+      w("fpz_capture", capture_version);
+      visit_capture(w, c);
+    });
     out.close();
     if (!out) {
       std::error_code ignored;

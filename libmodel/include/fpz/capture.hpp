@@ -4,6 +4,8 @@
 #include <filesystem>
 
 #include "fpz/double_scale.hpp"
+#include "fpz/parameters.hpp"
+#include "fpz/state_fields.hpp"
 
 namespace fpz {
 
@@ -17,6 +19,38 @@ struct Capture {
   Tensor<double, Dim> strain_increment = Tensor<double, Dim>::Zero();
   Status status = Status::ok;  ///< what the update returned
 };
+
+/// The layout of a capture file, for the writer and for readers. C is Capture<Dim>, const or not. The archive offers
+/// `archive(key, member)` for numbers, vectors and matrices (row by row), flags and words, and
+/// `archive.object(key, f)`, which calls `f` with the archive of an object inside.
+template <class Archive, class C>
+void visit_capture(Archive& archive, C& c) {
+  archive("setting", c.setting);
+  archive.object("material", [&c](Archive& material) {
+    for (const ParameterInfo<double>& p : parameter_table<double>) {
+      if (p.of_material) material(p.name, c.parameters.*p.member);
+    }
+  });
+  for (const ParameterInfo<double>& p : parameter_table<double>) {
+    if (!p.of_material) archive(p.name, c.parameters.*p.member);
+  }
+  archive.object("integrator", [&o = c.options](Archive& integrator) {
+    integrator("name", o.method);
+    integrator("tolerance", o.tolerance);
+    integrator("max_iterations", o.max_iterations);
+    integrator("max_substeps", o.max_substeps);
+    integrator("scan_degrees", o.scan_resolution_deg);
+    integrator("preferred_normal", o.preferred_normal);
+  });
+  archive.object("begin", [&s = c.begin](Archive& begin) {
+    visit_point(s, begin);
+    if (s.cracked) visit_crack(s, begin);
+  });
+  archive("strain_increment", c.strain_increment);
+  archive("status", c.status);
+}
+
+inline constexpr int capture_version = 1;  ///< the file's "fpz_capture"
 
 /// Writes a capture as JSON (numbers with 17 digits, NaN and infinity as strings). The file appears under its name only
 /// when it is complete. Returns false when it cannot be written.
