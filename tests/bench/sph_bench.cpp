@@ -27,8 +27,8 @@ double seconds() { return std::chrono::duration<double>(std::chrono::steady_cloc
 
 /// A bar pulled slowly at one end, far below its strength.
 /// `scale` times as long and as high.
-Scene<2> specimen(const Options<2>& options, int scale = 1) {
-  Scene<2> s;
+RunSetup<2> specimen(const Options<2>& options, int scale = 1) {
+  RunSetup<2> s;
   s.options = options;
   s.parameters = {45e9, 0.24, 2400.0, 2.9e6, 5e6, 37.0, 5.0, 16.4e-6, 1e14, 1e11, 2e-3};
   s.arrangement.spacing = spacing;

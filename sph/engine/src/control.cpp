@@ -13,8 +13,8 @@ bool Engine<Dim>::control_due() const {
 /// Pa s; with mass scaling so that its rate keeps its ratio to the time step.
 template <int Dim>
 double Engine<Dim>::control_viscosity() const {
-  return scene.options.zero_energy_control * view.rest_density * view.sound_speed * h *
-         std::sqrt(scene.options.mass_scale);
+  return setup.options.zero_energy_control * view.rest_density * view.sound_speed * h *
+         std::sqrt(setup.options.mass_scale);
 }
 
 /// Pairwise dampers: no rate exceeds twice the largest sum of a particle's coefficients over its mass.
@@ -29,7 +29,7 @@ double Engine<Dim>::control_rate() const {
       double square = 0.0;
       for (std::size_t c = 0; c < dimensions; ++c)
         square += (p.start[c][j] - p.start[c][i]) * (p.start[c][j] - p.start[c][i]);
-      const double slope = view.slope_norm * kernel_slope(scene.options.kernel, std::sqrt(square) / h);
+      const double slope = view.slope_norm * kernel_slope(setup.options.kernel, std::sqrt(square) / h);
       sum += slope * p.volume[i] * p.volume[j] * square / (square + 0.01 * h * h);
     }
     largest = std::max(largest, sum * p.inverse_mass[i]);

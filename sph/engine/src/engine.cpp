@@ -42,11 +42,11 @@ int team_size(int requested) {
 }
 
 template <int Dim>
-Engine<Dim>::Engine(const Scene<Dim>& s, double time_step) : scene(s), dt(time_step) {
-  const Options<Dim>& o = scene.options;
-  material = make_material(scene.parameters, scene.setting);
+Engine<Dim>::Engine(const RunSetup<Dim>& s, double time_step) : setup(s), dt(time_step) {
+  const Options<Dim>& o = setup.options;
+  material = make_material(setup.parameters, setup.setting);
   update_options.method = o.method;
-  h = o.smoothing_ratio * scene.arrangement.spacing;
+  h = o.smoothing_ratio * setup.arrangement.spacing;
   passes = choose_passes(o);
   place_particles();
   connect_groups();
@@ -65,8 +65,8 @@ Engine<Dim>::Engine(const Scene<Dim>& s, double time_step) : scene(s), dt(time_s
 
 template <int Dim>
 void Engine<Dim>::place_particles() {
-  const Arrangement<Dim>& a = scene.arrangement;
-  const Options<Dim>& o = scene.options;
+  const Arrangement<Dim>& a = setup.arrangement;
+  const Options<Dim>& o = setup.options;
   Particles<Dim>& p = particles;
   p.count = a.size();
   const std::size_t padded = (p.count + lanes - 1) / lanes * lanes;
@@ -101,31 +101,31 @@ void Engine<Dim>::place_particles() {
     const std::size_t k = p.id[i];
     for (std::size_t c = 0; c < dimensions; ++c) {
       p.start[c][i] = p.position[c][i] = a.position[k][static_cast<int>(c)];
-      if (!scene.velocity.empty()) p.velocity[c][i] = scene.velocity[k][static_cast<int>(c)];
+      if (!setup.velocity.empty()) p.velocity[c][i] = setup.velocity[k][static_cast<int>(c)];
       damping[c][i] = o.damping;
     }
     p.volume[i] = a.volume[k];
-    p.density[i] = scene.parameters.density;
-    p.mass[i] = scene.parameters.density * a.volume[k] * o.mass_scale;
+    p.density[i] = setup.parameters.density;
+    p.mass[i] = setup.parameters.density * a.volume[k] * o.mass_scale;
     p.inverse_mass[i] = 1.0 / p.mass[i];
     const double size = Dim == 2 ? std::sqrt(a.volume[k]) : std::cbrt(a.volume[k]);
     p.length[i] = o.rve_length.rule == RveLength::Rule::number ? o.rve_length.value : size;
     const int g = a.group[k];
-    p.kind[i] = g >= 0 && scene.groups[static_cast<std::size_t>(g)].elastic ? kind::elastic : kind::intact;
+    p.kind[i] = g >= 0 && setup.groups[static_cast<std::size_t>(g)].elastic ? kind::elastic : kind::intact;
   }
 }
 
 template <int Dim>
 void Engine<Dim>::connect_groups() {
-  reaction.assign(scene.groups.size(), Vec<double, Dim>::Zero());
-  group_velocity.assign(scene.groups.size(), Vec<double, Dim>::Zero());
-  for (std::size_t g = 0; g < scene.groups.size(); ++g) {
+  reaction.assign(setup.groups.size(), Vec<double, Dim>::Zero());
+  group_velocity.assign(setup.groups.size(), Vec<double, Dim>::Zero());
+  for (std::size_t g = 0; g < setup.groups.size(); ++g) {
     for (std::size_t c = 0; c < dimensions; ++c) {
-      const std::optional<Motion>& motion = scene.groups[g].motion[c];
+      const std::optional<Motion>& motion = setup.groups[g].motion[c];
       if (!motion) continue;
       group_velocity[g][static_cast<int>(c)] = motion->velocity(0.0);
       for (std::size_t i = 0; i < particles.count; ++i) {
-        if (scene.arrangement.group[particles.id[i]] != static_cast<int>(g)) continue;
+        if (setup.arrangement.group[particles.id[i]] != static_cast<int>(g)) continue;
         prescribed.push_back({i, c, g});
         damping[c][i] = 0.0;
         particles.velocity[c][i] = motion->velocity(0.0);
@@ -137,7 +137,7 @@ void Engine<Dim>::connect_groups() {
 template <int Dim>
 void Engine<Dim>::point_view() {
   Particles<Dim>& p = particles;
-  const Options<Dim>& o = scene.options;
+  const Options<Dim>& o = setup.options;
   View<Dim>& v = view;
   v.column = bonds.column.data();
   v.neighbour = bonds.neighbour.data();
@@ -186,9 +186,9 @@ void Engine<Dim>::point_view() {
   v.strength = material.law.cohesion * material.cos_phi;
   v.apex = material.law.apex;
   v.weight_scale = 1.0 / o.mass_scale;
-  v.rest_density = scene.parameters.density;
-  v.sound_speed = std::sqrt(scene.parameters.young_modulus / scene.parameters.density);
-  v.top_speed = std::sqrt((v.lambda + 2.0 * v.mu) / scene.parameters.density);
+  v.rest_density = setup.parameters.density;
+  v.sound_speed = std::sqrt(setup.parameters.young_modulus / setup.parameters.density);
+  v.top_speed = std::sqrt((v.lambda + 2.0 * v.mu) / setup.parameters.density);
   v.damped = o.damping > 0.0;
   v.smoothing = h;
   v.inverse_smoothing = 1.0 / h;
@@ -210,7 +210,7 @@ void Engine<Dim>::remake_bonds() {
   point_view();
 }
 
-template Engine<2>::Engine(const Scene<2>&, double);
+template Engine<2>::Engine(const RunSetup<2>&, double);
 template void Engine<2>::place_particles();
 template void Engine<2>::connect_groups();
 template void Engine<2>::point_view();

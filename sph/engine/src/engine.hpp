@@ -21,7 +21,7 @@ struct Engine {
   static constexpr auto dimensions = static_cast<std::size_t>(Dim);
   static constexpr auto components = static_cast<std::size_t>(tensor_size<Dim>);
 
-  Scene<Dim> scene;
+  RunSetup<Dim> setup;
   Material<double> material;
   fpz::Options update_options;
   double h = 0.0;   ///< smoothing length, m
@@ -59,15 +59,15 @@ struct Engine {
   View<Dim> view;
 
   /// A run with the given time step, s.
-  Engine(const Scene<Dim>& s, double time_step);
+  Engine(const RunSetup<Dim>& s, double time_step);
   Engine(const Engine&) = delete;
   Engine& operator=(const Engine&) = delete;
 
-  [[nodiscard]] bool updated() const { return scene.options.configuration == Configuration::updated; }
+  [[nodiscard]] bool updated() const { return setup.options.configuration == Configuration::updated; }
   [[nodiscard]] double now() const { return static_cast<double>(steps) * dt; }
   /// Of a prescribed component at n + 1/2, m/s.
   [[nodiscard]] double prescribed_velocity(std::size_t group, std::size_t component) const {
-    return scene.groups[group].motion[component]->velocity(now() + 0.5 * dt);
+    return setup.groups[group].motion[component]->velocity(now() + 0.5 * dt);
   }
 
   void place_particles();
@@ -134,7 +134,7 @@ template <class F>
 void Engine<Dim>::for_chunks(F&& f) {
   const auto blocks = static_cast<Index>(particles.blocks());
   const Index chunks = (blocks + chunk_blocks - 1) / chunk_blocks;
-  const int team = team_size(scene.options.threads);
+  const int team = team_size(setup.options.threads);
 #pragma omp parallel for schedule(dynamic, 1) num_threads(team) if (team > 1 && chunks > 1)
   for (Index c = 0; c < chunks; ++c) f(c * chunk_blocks, std::min((c + 1) * chunk_blocks, blocks));
 }

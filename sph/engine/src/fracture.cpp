@@ -58,7 +58,7 @@ Outcome Engine<Dim>::update_flagged(Index first, Index last) {
     }
     const State<double, Dim> begin = point;
     Report report = update<Dim>(m, update_options, begin, increment, point);
-    if (report.ok() && report.onset && scene.options.rve_length.rule == RveLength::Rule::band) {
+    if (report.ok() && report.onset && setup.options.rve_length.rule == RveLength::Rule::band) {
       // The plane is known now and does not depend on H: once more with the H that belongs to it.
       p.length[i] = band_length(i, point.frame.row(0).transpose());
       set_rve_length(m, p.length[i]);
@@ -82,7 +82,7 @@ Outcome Engine<Dim>::update_flagged(Index first, Index last) {
     p.stress[0][i] = s.xx;
     p.stress[1][i] = s.yy;
     p.stress[2][i] = s.xy;
-    const bool plain = updated() && scene.options.momentum == MomentumForm::paper;
+    const bool plain = updated() && setup.options.momentum == MomentumForm::paper;
     const Symmetric l =
         plain ? Symmetric{1.0, 1.0, 0.0} : Symmetric{p.correction[0][i], p.correction[1][i], p.correction[2][i]};
     const Full t = updated() ? flux_of(1.0, 0.0, s, l) : flux_of(cosine, sine, s, l);
@@ -90,7 +90,7 @@ Outcome Engine<Dim>::update_flagged(Index first, Index last) {
     p.flux[1][i] = t.xy;
     p.flux[2][i] = t.yx;
     p.flux[3][i] = t.yy;
-    const Symmetric r = tensile_repulsion(scene.options.artificial_stress, s);
+    const Symmetric r = tensile_repulsion(setup.options.artificial_stress, s);
     p.artificial[0][i] = r.xx;
     p.artificial[1][i] = r.yy;
     p.artificial[2][i] = r.xy;

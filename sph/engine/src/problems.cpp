@@ -1,8 +1,9 @@
-// Checks of a scene and messages of failures.
+// Checks of a set-up and messages of failures.
 #include <algorithm>
 #include <cmath>
 #include <sstream>
 
+#include "fpz/sph/option_table.hpp"
 #include "fpz/sph/simulation.hpp"
 
 namespace fpz::sph {
@@ -30,34 +31,32 @@ std::string number(const std::string& name, double value, const std::string& con
   return entry(name, value, "must be " + constraint);
 }
 
-template <int Dim>
-void check_options(const Options<Dim>& o, Messages& m) {
-  const auto positive = [&](const char* name, double x) {
-    m.require(std::isfinite(x) && x > 0.0, number(name, x, "positive"));
-  };
-  const auto not_negative = [&](const char* name, double x) {
-    m.require(std::isfinite(x) && x >= 0.0, number(name, x, "zero or positive"));
-  };
-  positive("smoothing_ratio", o.smoothing_ratio);
-  positive("courant", o.courant);
-  if (o.rve_length.rule == RveLength::Rule::number) positive("rve_length", o.rve_length.value);
-  not_negative("viscosity_alpha", o.viscosity_alpha);
-  not_negative("viscosity_beta", o.viscosity_beta);
-  not_negative("artificial_stress", o.artificial_stress);
-  not_negative("skin", o.skin);
-  not_negative("zero_energy_control", o.zero_energy_control);
-  m.require(o.damping >= 0.0 && o.damping < 1.0, number("damping", o.damping, "in [0, 1)"));
-  m.require(std::isfinite(o.mass_scale) && o.mass_scale >= 1.0, number("mass_scale", o.mass_scale, "at least 1"));
-  m.require(o.release_integrity >= 0.0 && o.release_integrity < 1.0,
-            number("release_integrity", o.release_integrity, "in [0, 1)"));
-  for (int c = 0; c < Dim; ++c) {
-    m.require(std::isfinite(o.gravity[c]), number("gravity", o.gravity[c], "finite"));
+/// Checks the number that an option holds; words are always valid.
+class OptionCheck {
+ public:
+  explicit OptionCheck(Messages& messages) : messages_(messages) {}
+
+  void operator()(const OptionInfo& info, double x) const {
+    messages_.require(info.valid.hold(x), number(std::string(info.name), x, info.valid.text()));
   }
-  m.require(o.threads >= 0, number("threads", o.threads, "zero (all) or positive"));
-}
+  void operator()(const OptionInfo& info, int x) const { (*this)(info, static_cast<double>(x)); }
+  void operator()(const OptionInfo& info, const RveLength& x) const {
+    if (x.rule == RveLength::Rule::number) (*this)(info, x.value);
+  }
+  template <int Dim>
+  void operator()(const OptionInfo& info, const Vec<double, Dim>& x) const {
+    for (int c = 0; c < Dim; ++c)
+      messages_.require(std::isfinite(x[c]), number(std::string(info.name), x[c], "finite"));
+  }
+  template <Worded E>
+  void operator()(const OptionInfo&, E) const {}
+
+ private:
+  Messages& messages_;
+};
 
 template <int Dim>
-void check_arrangement(const Scene<Dim>& s, Messages& m) {
+void check_arrangement(const RunSetup<Dim>& s, Messages& m) {
   const Arrangement<Dim>& a = s.arrangement;
   m.require(std::isfinite(a.spacing) && a.spacing > 0.0, number("spacing", a.spacing, "positive"));
   m.require(a.size() > 0, "arrangement: has no particles");
@@ -99,9 +98,9 @@ void check_cuts(const Arrangement<Dim>& a, Messages& m) {
 }  // namespace
 
 template <int Dim>
-std::vector<std::string> problems(const Scene<Dim>& s) {
+std::vector<std::string> problems(const RunSetup<Dim>& s) {
   Messages m;
-  check_options(s.options, m);
+  for_each_option(s.options, OptionCheck(m));
   check_arrangement(s, m);
   check_cuts(s.arrangement, m);
   m.require((Dim == 3) == (s.setting == Setting::three_d), "setting: must be plane strain or plane stress in 2-D");
@@ -151,6 +150,6 @@ std::string Outcome::message() const {
   return s.str();
 }
 
-template std::vector<std::string> problems<2>(const Scene<2>&);
+template std::vector<std::string> problems<2>(const RunSetup<2>&);
 
 }  // namespace fpz::sph

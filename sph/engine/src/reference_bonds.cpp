@@ -10,7 +10,7 @@ namespace fpz::sph::detail {
 template <int Dim>
 void Engine<Dim>::build_reference_bonds() {
   lists = find_neighbours<Dim>(particles.start, particles.count, kernel_support * h);
-  separate<Dim>(lists, scene.arrangement.cuts, particles.start);
+  separate<Dim>(lists, setup.arrangement.cuts, particles.start);
   bonds = pack<Dim>(lists, particles.padded(), false);
   builds = 1;
   for (std::size_t i = 0; i < particles.count; ++i) write_row(i);
@@ -23,7 +23,7 @@ void Engine<Dim>::write_row(std::size_t i) {
   const std::size_t block = i / lanes;
   const auto first = static_cast<std::size_t>(bonds.column[block]);
   const auto width = static_cast<std::size_t>(bonds.column[block + 1]) - first;
-  const double norm = kernel_norm<Dim>(scene.options.kernel, h) / (h * h);
+  const double norm = kernel_norm<Dim>(setup.options.kernel, h) / (h * h);
   const auto entry = [&](std::size_t k) { return (first + k) * lanes + i % lanes; };
   Symmetric moment = {0.0, 0.0, 0.0};
   for (std::size_t k = 0; k < width; ++k) {
@@ -32,7 +32,7 @@ void Engine<Dim>::write_row(std::size_t i) {
     const double rx = p.start[0][j] - p.start[0][i];
     const double ry = p.start[1][j] - p.start[1][i];
     const double q = std::sqrt(rx * rx + ry * ry) / h;
-    const double slope = real ? norm * (p.volume[i] * p.volume[j]) * kernel_slope(scene.options.kernel, q) : 0.0;
+    const double slope = real ? norm * (p.volume[i] * p.volume[j]) * kernel_slope(setup.options.kernel, q) : 0.0;
     bonds.neighbour[entry(k)] = static_cast<int>(j);
     bonds.weight[0][entry(k)] = slope * rx;
     bonds.weight[1][entry(k)] = slope * ry;
@@ -42,7 +42,7 @@ void Engine<Dim>::write_row(std::size_t i) {
   }
   const double inverse = 1.0 / p.volume[i];
   Symmetric c = correction_of({moment.xx * inverse, moment.yy * inverse, moment.xy * inverse});
-  if (scene.options.momentum == MomentumForm::paper) {
+  if (setup.options.momentum == MomentumForm::paper) {
     // L_i is on both stresses and on the velocity gradient alike: it goes into the weights of the row.
     for (std::size_t k = 0; k < width; ++k) {
       const double wx = bonds.weight[0][entry(k)];
@@ -62,7 +62,7 @@ void Engine<Dim>::release_bonds() {
   Particles<Dim>& p = particles;
   std::vector<std::size_t> changed;
   for (std::size_t i = 0; i < p.count; ++i) {
-    if (p.kind[i] != kind::cracked || p.point[i].crack.integrity >= scene.options.release_integrity) continue;
+    if (p.kind[i] != kind::cracked || p.point[i].crack.integrity >= setup.options.release_integrity) continue;
     const CohesiveState<double, Dim>& crack = p.point[i].crack;
     if (!(crack.jump[0] > 0.0)) continue;
     // The crack's normal in the undeformed body.

@@ -9,31 +9,31 @@
 namespace fpz::sph {
 
 template <int Dim>
-double courant_step(const Scene<Dim>& s) {
+double courant_step(const RunSetup<Dim>& s) {
   const double sound = std::sqrt(s.parameters.young_modulus / s.parameters.density);
   return s.options.courant * s.options.smoothing_ratio * s.arrangement.spacing / sound *
          std::sqrt(s.options.mass_scale);
 }
 
 template <int Dim>
-double time_step(const Scene<Dim>& s) {
+double time_step(const RunSetup<Dim>& s) {
   return std::min(courant_step(s), stability_margin * stability_limit(s));
 }
 
 namespace {
 
 template <int Dim>
-std::unique_ptr<detail::Engine<Dim>> make_engine(const Scene<Dim>& scene) {
+std::unique_ptr<detail::Engine<Dim>> make_engine(const RunSetup<Dim>& setup) {
   std::string text;
-  for (const std::string& problem : problems(scene)) text += (text.empty() ? "" : "\n") + problem;
+  for (const std::string& problem : problems(setup)) text += (text.empty() ? "" : "\n") + problem;
   if (!text.empty()) throw std::invalid_argument(text);
-  return std::make_unique<detail::Engine<Dim>>(scene, time_step(scene));
+  return std::make_unique<detail::Engine<Dim>>(setup, time_step(setup));
 }
 
 }  // namespace
 
 template <int Dim>
-Simulation<Dim>::Simulation(const Scene<Dim>& scene) : engine_(make_engine(scene)) {}
+Simulation<Dim>::Simulation(const RunSetup<Dim>& setup) : engine_(make_engine(setup)) {}
 template <int Dim>
 Simulation<Dim>::~Simulation() = default;
 template <int Dim>
@@ -116,7 +116,7 @@ Energies Simulation<Dim>::energies() const {
       sum.elastic += volume * 0.25 / mu * (double_dot<Dim>(s, s) - lambda / (Dim * lambda + 2.0 * mu) * trace * trace);
     }
     for (std::size_t c = 0; c < p.start.size(); ++c) {
-      sum.external += p.mass[i] * e.view.weight_scale * e.scene.options.gravity[static_cast<int>(c)] *
+      sum.external += p.mass[i] * e.view.weight_scale * e.setup.options.gravity[static_cast<int>(c)] *
                       (p.position[c][i] - p.start[c][i]);
     }
   }
@@ -127,8 +127,8 @@ Energies Simulation<Dim>::energies() const {
   return sum;
 }
 
-template double courant_step<2>(const Scene<2>&);
-template double time_step<2>(const Scene<2>&);
+template double courant_step<2>(const RunSetup<2>&);
+template double time_step<2>(const RunSetup<2>&);
 template class Simulation<2>;
 
 }  // namespace fpz::sph

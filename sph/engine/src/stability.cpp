@@ -17,7 +17,7 @@ double Engine<Dim>::largest_frequency() {
   constexpr double settled = 1e-4;  // relative change per iteration; the estimate rises monotonically
   constexpr double strain = 1e-6;   // small against one: the polar decomposition is linear there
   Particles<Dim>& p = particles;
-  const double amplitude = strain * scene.arrangement.spacing;
+  const double amplitude = strain * setup.arrangement.spacing;
   std::mt19937_64 rng(1);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   for (Field& u : p.velocity) {
@@ -60,16 +60,16 @@ template double Engine<2>::largest_frequency();
 }  // namespace detail
 
 template <int Dim>
-double stability_limit(const Scene<Dim>& scene) {
-  Scene<Dim> elastic = scene;
+double stability_limit(const RunSetup<Dim>& setup) {
+  RunSetup<Dim> elastic = setup;
   elastic.options.configuration = Configuration::reference;  // the same operator while nothing has moved
   elastic.velocity.clear();
   detail::Engine<Dim> engine(elastic, 1.0);
-  const double control = scene.options.configuration == Configuration::reference ? engine.control_rate() : 0.0;
+  const double control = setup.options.configuration == Configuration::reference ? engine.control_rate() : 0.0;
   const double limit = 2.0 / engine.largest_frequency();
   return control > 0.0 ? std::min(limit, 2.0 / control) : limit;
 }
 
-template double stability_limit<2>(const Scene<2>&);
+template double stability_limit<2>(const RunSetup<2>&);
 
 }  // namespace fpz::sph

@@ -29,9 +29,9 @@ void Engine<Dim>::prescribe(double step) {
   Particles<Dim>& p = particles;
   std::vector<Vec<double, Dim>> old_reaction = reaction;
   std::vector<Vec<double, Dim>> old_velocity = group_velocity;
-  for (std::size_t g = 0; g < scene.groups.size(); ++g) {
+  for (std::size_t g = 0; g < setup.groups.size(); ++g) {
     for (std::size_t c = 0; c < dimensions; ++c) {
-      if (scene.groups[g].motion[c]) group_velocity[g][static_cast<int>(c)] = prescribed_velocity(g, c);
+      if (setup.groups[g].motion[c]) group_velocity[g][static_cast<int>(c)] = prescribed_velocity(g, c);
     }
     reaction[g].setZero();
   }
@@ -46,7 +46,7 @@ void Engine<Dim>::prescribe(double step) {
     velocity = target;
   }
   // Trapezoidal in the force: the work that makes the leap-frog's energy exact for an elastic body.
-  for (std::size_t g = 0; g < scene.groups.size(); ++g) {
+  for (std::size_t g = 0; g < setup.groups.size(); ++g) {
     if (started) prescribed_work += 0.5 * dt * (old_reaction[g] + reaction[g]).dot(old_velocity[g]);
   }
 }
@@ -102,7 +102,7 @@ Outcome Engine<Dim>::step() {
       passes->drift(view, first, last);
       update(first, last);
     });
-    if (scene.options.release_integrity > 0.0 && steps % release_interval == 0) release_bonds();
+    if (setup.options.release_integrity > 0.0 && steps % release_interval == 0) release_bonds();
   }
   for (const Outcome& f : failures) {
     if (!f.ok()) return f;

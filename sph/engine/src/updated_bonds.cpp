@@ -5,9 +5,9 @@ namespace fpz::sph::detail {
 
 template <int Dim>
 void Engine<Dim>::rebuild_lists() {
-  const double skin = scene.options.skin * scene.arrangement.spacing;
+  const double skin = setup.options.skin * setup.arrangement.spacing;
   lists = find_neighbours<Dim>(particles.position, particles.count, kernel_support * h + skin);
-  separate<Dim>(lists, scene.arrangement.cuts, particles.start);
+  separate<Dim>(lists, setup.arrangement.cuts, particles.start);
   bonds = pack<Dim>(lists, particles.padded(), true);
   built_at = particles.position;
   ++builds;
@@ -15,7 +15,7 @@ void Engine<Dim>::rebuild_lists() {
 
 template <int Dim>
 bool Engine<Dim>::lists_outdated() const {
-  const double limit = 0.5 * scene.options.skin * scene.arrangement.spacing;
+  const double limit = 0.5 * setup.options.skin * setup.arrangement.spacing;
   bool outdated = false;
   for (std::size_t i = 0; i < particles.count; ++i) {
     double moved = 0.0;

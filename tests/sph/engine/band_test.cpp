@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "scenes.hpp"
+#include "setups.hpp"
 
 namespace fpz::sph::test {
 namespace {

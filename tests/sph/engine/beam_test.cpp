@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scenes.hpp"
+#include "setups.hpp"
 
 namespace fpz::sph::test {
 namespace {
@@ -10,8 +10,8 @@ namespace {
 constexpr double thickness = 0.04;  // m
 
 /// 320 x 80 mm, notch 8 mm deep, span 240 mm, rollers of three layers and two columns.
-Scene<2> beam(double dx, double speed) {
-  Scene<2> s;
+RunSetup<2> beam(double dx, double speed) {
+  RunSetup<2> s;
   s.parameters = concrete();
   s.options.courant = 0.8;
   s.arrangement.spacing = dx;

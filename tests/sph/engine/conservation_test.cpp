@@ -1,14 +1,14 @@
 // Momentum, energy and their sources.
 #include <cmath>
 
-#include "scenes.hpp"
+#include "setups.hpp"
 
 namespace fpz::sph::test {
 namespace {
 
 /// A block whose particles start with smooth velocities that stretch and shear it.
-Scene<2> shaken(Configuration configuration, double courant = 0.3) {
-  Scene<2> s = block(20, 12, 0.15);
+RunSetup<2> shaken(Configuration configuration, double courant = 0.3) {
+  RunSetup<2> s = block(20, 12, 0.15);
   s.options.configuration = configuration;
   s.options.courant = courant;
   set_velocity(s, [](const Vector& x) {
@@ -29,7 +29,7 @@ TEST(Conservation, MomentumToRounding) {
 
 /// Largest imbalance over a run of fixed duration, over the kinetic energy at the start.
 double imbalance(Configuration configuration, double courant) {
-  Scene<2> s = shaken(configuration, courant);
+  RunSetup<2> s = shaken(configuration, courant);
   Simulation<2> run(s);
   double worst = 0.0;
   const auto steps = static_cast<long long>(std::lround(2e-5 / run.time_step()));
@@ -58,7 +58,7 @@ TEST(Conservation, EnergyInTheUpdatedConfiguration) {
 
 /// Everything that puts energy in or takes it out at once: prescribed motion, gravity, local damping, mass scaling.
 TEST(Conservation, BalanceWithPrescribedMotionAndDamping) {
-  Scene<2> s = block(20, 8);
+  RunSetup<2> s = block(20, 8);
   s.options.courant = 0.3;
   s.options.damping = 0.1;
   s.options.mass_scale = 4.0;
@@ -79,7 +79,7 @@ TEST(Conservation, BalanceWithPrescribedMotionAndDamping) {
 
 /// The force of the grips on a bar in slow tension balances, and is the stress times the section.
 TEST(Conservation, ReactionsBalance) {
-  Scene<2> s = block(40, 8);
+  RunSetup<2> s = block(40, 8);
   s.options.damping = 0.2;
   add_group(s, {"left", {Motion{0.0, 0.0}, std::nullopt}, true}, [](const Vector& x) { return x[0] < 3e-3; });
   add_group(s, {"right", {Motion{0.02, 1e-4}, std::nullopt}, true}, [](const Vector& x) { return x[0] > 37e-3; });
@@ -100,7 +100,7 @@ TEST(Conservation, ReactionsBalance) {
 TEST(Conservation, FreeFallIsExact) {
   for (const Variant& v : variants) {
     // On irregular arrangements the paper's form is not adjoint to the gradient, and rounding grows without bound.
-    Scene<2> s = block(7, 5, v.momentum == MomentumForm::adjoint ? 0.2 : 0.0);
+    RunSetup<2> s = block(7, 5, v.momentum == MomentumForm::adjoint ? 0.2 : 0.0);
     s.options.configuration = v.configuration;
     s.options.momentum = v.momentum;
     s.options.gravity = vec(3.0, -9.81);
@@ -120,7 +120,7 @@ TEST(Conservation, FreeFallIsExact) {
 /// The artificial stress of the updated configuration on particles moved by up to 0.3 spacings (some pairs at half a
 /// spacing), with the body in tension: it stays at rest between its grips.
 TEST(Conservation, ArtificialStressIsStableOnIrregularArrangements) {
-  Scene<2> s = block(24, 12, 0.3);
+  RunSetup<2> s = block(24, 12, 0.3);
   s.options.configuration = Configuration::updated;
   const Motion still{0.0, 0.0};
   add_group(s, {"left", {still, still}, true}, [](const Vector& x) { return x[0] < 3e-3; });
@@ -137,7 +137,7 @@ TEST(Conservation, ArtificialStressIsStableOnIrregularArrangements) {
 /// from the turn (which would make E (1 - cos) = 45 GPa).
 TEST(Conservation, RigidRotationMakesNoStress) {
   for (const Configuration c : {Configuration::reference, Configuration::updated}) {
-    Scene<2> s = block(8, 8);
+    RunSetup<2> s = block(8, 8);
     s.options.configuration = c;
     s.options.viscosity_alpha = 0.0;
     const double omega = 2000.0;

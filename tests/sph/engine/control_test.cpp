@@ -1,15 +1,15 @@
 // Control of the velocities that the gradient of the reference configuration does not see.
 #include <cmath>
 
-#include "scenes.hpp"
+#include "setups.hpp"
 
 namespace fpz::sph::test {
 namespace {
 
 using Matrix = Mat<double, 2, 2>;
 
-Scene<2> lattice(double control, const std::function<Vector(const Vector&)>& field, double jitter = 0.0) {
-  Scene<2> s = block(24, 16, jitter);
+RunSetup<2> lattice(double control, const std::function<Vector(const Vector&)>& field, double jitter = 0.0) {
+  RunSetup<2> s = block(24, 16, jitter);
   s.options.zero_energy_control = control;
   set_velocity(s, field);
   return s;
@@ -37,8 +37,8 @@ double left(const Simulation<2>& run) {
 
 TEST(Control, RemovesAlternatingVelocities) {
   for (const MomentumForm form : {MomentumForm::adjoint, MomentumForm::paper}) {
-    Scene<2> off = lattice(0.0, checkerboard);
-    Scene<2> on = lattice(Options<2>{}.zero_energy_control, checkerboard);
+    RunSetup<2> off = lattice(0.0, checkerboard);
+    RunSetup<2> on = lattice(Options<2>{}.zero_energy_control, checkerboard);
     off.options.momentum = on.options.momentum = form;
     Simulation<2> free(off), controlled(on);
     advance(free, 10);
@@ -52,7 +52,7 @@ TEST(Control, RemovesAlternatingVelocities) {
 
 /// The energy that it takes is reported, and the balance closes; prescribed components included.
 TEST(Control, ItsWorkIsReported) {
-  Scene<2> s = lattice(0.01, checkerboard, 0.1);
+  RunSetup<2> s = lattice(0.01, checkerboard, 0.1);
   add_group(s, {"left", {Motion{0.0, 0.0}, std::nullopt}, true}, [](const Vector& x) { return x[0] < 3e-3; });
   add_group(s, {"right", {Motion{0.02, 5e-6}, Motion{0.0, 0.0}}, true}, [](const Vector& x) { return x[0] > 21e-3; });
   Simulation<2> run(s);
@@ -73,7 +73,7 @@ TEST(Control, DoesNothingToAffineMotion) {
   Matrix a;
   a << 30.0, -20.0, 50.0, 10.0;
   const auto taken = [](const std::function<Vector(const Vector&)>& field) {
-    Scene<2> s = lattice(0.01, field, 0.25);
+    RunSetup<2> s = lattice(0.01, field, 0.25);
     s.options.courant = 1e-4;
     Simulation<2> run(s);
     advance(run, 50);
@@ -83,7 +83,7 @@ TEST(Control, DoesNothingToAffineMotion) {
 
   const double omega = 2000.0;
   const Vector centre = vec(12e-3, 8e-3);
-  Scene<2> spin =
+  RunSetup<2> spin =
       lattice(0.01, [&](const Vector& x) { return vec(-omega * (x[1] - centre[1]), omega * (x[0] - centre[0])); });
   Simulation<2> turning(spin);
   advance(turning, static_cast<long long>(0.5 * 3.14159 / omega / turning.time_step()));
@@ -91,7 +91,7 @@ TEST(Control, DoesNothingToAffineMotion) {
 }
 
 TEST(Control, ConservesMomentumAndMomentOfMomentum) {
-  Scene<2> s = lattice(
+  RunSetup<2> s = lattice(
       0.02, [](const Vector& x) { return Vector(checkerboard(x) + vec(0.0, 0.01 + x[0])); }, 0.2);
   s.options.courant = 0.01;  // the internal force, which keeps the moment only to the order of the strain, is small
   Simulation<2> run(s);
@@ -115,7 +115,7 @@ TEST(Control, ConservesMomentumAndMomentOfMomentum) {
 /// However strong: the interval and the time step follow, and no run explodes.
 TEST(Control, IsStableAtAnyStrength) {
   for (const double control : {0.01, 0.1, 1.0, 10.0}) {
-    Scene<2> s = lattice(
+    RunSetup<2> s = lattice(
         control, [](const Vector& x) { return vec(std::sin(5e3 * x[0]), std::cos(4e3 * x[1])); }, 0.3);
     s.options.courant = 10.0;
     Simulation<2> run(s);
@@ -123,8 +123,8 @@ TEST(Control, IsStableAtAnyStrength) {
     EXPECT_LT(run.energies().kinetic, run.energies().kinetic_start) << control;
     EXPECT_GT(run.energies().viscous, 0.0);
   }
-  Scene<2> weak = lattice(0.0, checkerboard);
-  Scene<2> strong = lattice(10.0, checkerboard);
+  RunSetup<2> weak = lattice(0.0, checkerboard);
+  RunSetup<2> strong = lattice(10.0, checkerboard);
   EXPECT_LT(stability_limit(strong), 0.2 * stability_limit(weak));
 }
 

@@ -3,7 +3,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "scenes.hpp"
+#include "setups.hpp"
 
 namespace fpz::sph::test {
 namespace {
@@ -47,8 +47,8 @@ TEST(Cut, LinesThroughAnEndDoNotCross) {
 constexpr Configuration configurations[] = {Configuration::reference, Configuration::updated};
 
 /// Two blocks side by side without a gap, the right one first at rest, the left one shaken; a cut between them.
-Scene<2> two_blocks(Configuration configuration) {
-  Scene<2> s = block(16, 10);
+RunSetup<2> two_blocks(Configuration configuration) {
+  RunSetup<2> s = block(16, 10);
   s.options.configuration = configuration;
   s.arrangement.cuts = {line(vec(8e-3, -1e-3), vec(8e-3, 11e-3))};
   set_velocity(s, [](const Vector& x) {
@@ -60,10 +60,10 @@ Scene<2> two_blocks(Configuration configuration) {
 /// The shaken block moves as it does alone, the other one not at all; without the cut it does.
 TEST(Cut, BlocksOnOppositeSidesDoNotFeelEachOther) {
   for (const Configuration c : configurations) {
-    const Scene<2> s = two_blocks(c);
-    Scene<2> alone = s;
+    const RunSetup<2> s = two_blocks(c);
+    RunSetup<2> alone = s;
     alone.arrangement.cuts.clear();
-    const Scene<2> joined = alone;
+    const RunSetup<2> joined = alone;
     alone.arrangement = {};
     alone.arrangement.spacing = s.arrangement.spacing;
     alone.velocity.clear();
@@ -99,7 +99,7 @@ TEST(Cut, BlocksOnOppositeSidesDoNotFeelEachOther) {
 /// In the updated configuration the faces stay apart when the lists are made anew: a block that slides along a cut for
 /// many spacings meets no resistance.
 TEST(Cut, HoldsWhenListsAreMadeAnew) {
-  Scene<2> s = two_blocks(Configuration::updated);
+  RunSetup<2> s = two_blocks(Configuration::updated);
   set_velocity(s, [](const Vector& x) { return vec(0.0, x[0] > 8e-3 ? 0.0 : 100.0); });
   Simulation<2> run(s);
   advance(run, 300);
@@ -112,8 +112,8 @@ TEST(Cut, HoldsWhenListsAreMadeAnew) {
 }
 
 /// A block with an edge cut that ends in the body, pulled across the cut at its ends.
-Scene<2> edge_cut(Configuration configuration) {
-  Scene<2> s = block(24, 12);
+RunSetup<2> edge_cut(Configuration configuration) {
+  RunSetup<2> s = block(24, 12);
   s.options.configuration = configuration;
   s.arrangement.cuts = {line(vec(12e-3, 0.0), vec(12e-3, 6e-3))};
   set_velocity(s, [](const Vector& x) { return vec(x[0] > 12e-3 ? 0.02 : -0.02, 0.0); });
@@ -122,7 +122,7 @@ Scene<2> edge_cut(Configuration configuration) {
 
 TEST(Cut, EndingInTheBodyOpensItsFacesAndLoadsItsTip) {
   for (const Configuration c : configurations) {
-    const Scene<2> s = edge_cut(c);
+    const RunSetup<2> s = edge_cut(c);
     Simulation<2> run(s);
     advance(run, 60);
     const Particles<2>& p = run.particles();
@@ -139,17 +139,17 @@ TEST(Cut, EndingInTheBodyOpensItsFacesAndLoadsItsTip) {
   }
 }
 
-/// Turned and mirrored scenes with a cut move alike, with lines through the tip of the cut among the bonds.
+/// Turned and mirrored set-ups with a cut move alike, with lines through the tip of the cut among the bonds.
 TEST(Cut, RotationAndMirrorSymmetry) {
   for (const Configuration c : configurations) {
-    Scene<2> s = edge_cut(c);
+    RunSetup<2> s = edge_cut(c);
     set_velocity(s, [](const Vector& x) { return vec(0.3 * std::sin(300.0 * x[0]) + 20.0 * x[1], -15.0 * x[0]); });
     Simulation<2> a(s);
     advance(a, 100);
     for (const double angle : {0.0, 0.7, -2.0}) {
       Mat<double, 2, 2> q;
       q << -std::cos(angle), -std::sin(angle), -std::sin(angle), std::cos(angle);
-      Scene<2> t = s;
+      RunSetup<2> t = s;
       for (Vector& x : t.arrangement.position) x = q * x;
       for (Vector& x : t.arrangement.cuts[0].corner) x = q * x;
       for (Vector& u : t.velocity) u = q * u;
@@ -168,7 +168,7 @@ TEST(Cut, RotationAndMirrorSymmetry) {
 
 /// Boundary particles are kept apart like the others.
 TEST(Cut, SeparatesBoundaryParticles) {
-  Scene<2> s = two_blocks(Configuration::reference);
+  RunSetup<2> s = two_blocks(Configuration::reference);
   s.velocity.clear();
   const Motion still{0.0, 0.0};
   add_group(s, {"platen", {Motion{0.5, 0.0}, still}, true}, [](const Vector& x) { return x[0] < 8e-3; });
@@ -180,7 +180,7 @@ TEST(Cut, SeparatesBoundaryParticles) {
 
 TEST(Cut, ProblemsAreNamed) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  Scene<2> s = block(4, 4);
+  RunSetup<2> s = block(4, 4);
   EXPECT_TRUE(problems(s).empty());
   s.arrangement.cuts = {line(vec(2e-3, 0.0), vec(2e-3, 2e-3)), line(vec(1.0, 1.0), vec(1.0, 1.0)),
                         line(vec(nan, 0.0), vec(1.0, 1.0)), line(vec(0.5e-3, 0.0), vec(0.5e-3, 1e-3))};
@@ -192,7 +192,7 @@ TEST(Cut, ProblemsAreNamed) {
 }
 
 TEST(Cut, SnapshotOfOtherCutsIsRefused) {
-  Scene<2> s = edge_cut(Configuration::reference);
+  RunSetup<2> s = edge_cut(Configuration::reference);
   Simulation<2> run(s);
   advance(run, 10);
   Simulation<2> same(s);

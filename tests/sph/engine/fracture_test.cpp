@@ -1,7 +1,7 @@
 // Cracked particles: the library's curve, separation, energy.
 #include <cmath>
 
-#include "scenes.hpp"
+#include "setups.hpp"
 
 namespace fpz::sph::test {
 namespace {
@@ -9,8 +9,8 @@ namespace {
 constexpr double spacing = 1e-3;
 
 /// Two particles, one prescribed to stand, the other to leave at `speed` (m/s): uniform strain u/spacing in both.
-Scene<2> pair(const Parameters& parameters, Configuration configuration, double speed, bool oblique) {
-  Scene<2> s;
+RunSetup<2> pair(const Parameters& parameters, Configuration configuration, double speed, bool oblique) {
+  RunSetup<2> s;
   s.parameters = parameters;
   s.options.configuration = configuration;
   s.options.threads = 1;
@@ -28,7 +28,7 @@ Scene<2> pair(const Parameters& parameters, Configuration configuration, double 
 
 /// The pair follows the library's single point on the strain path that its rotation and stretch prescribe.
 void follow(const Parameters& parameters, Configuration configuration, bool oblique) {
-  Scene<2> s = pair(parameters, configuration, 0.4, oblique);
+  RunSetup<2> s = pair(parameters, configuration, 0.4, oblique);
   Simulation<2> run(s);
   Parameters p = parameters;
   p.rve_length = spacing;
@@ -77,7 +77,7 @@ TEST(Fracture, PairInMixedModeFollowsTheLibrary) {
 /// localises; every particle still follows the library on its own strain path, exactly, with the H that it got.
 void column_follows(int rows, RveLength::Rule rule) {
   constexpr int columns = 12;
-  Scene<2> s = block(columns, rows, 0.0, spacing);
+  RunSetup<2> s = block(columns, rows, 0.0, spacing);
   s.parameters = concrete();
   s.options.rve_length.rule = rule;
   s.options.damping = 0.3;
@@ -129,7 +129,7 @@ TEST(Fracture, EveryParticleOfAColumnFollowsTheLibrary) {
 
 /// Opening mode I to far beyond separation dissipates sigma_t delta0 per area, H wide: the exact fracture energy.
 TEST(Fracture, PairDissipatesTheFractureEnergy) {
-  Scene<2> s = pair(concrete(), Configuration::reference, 0.4, false);
+  RunSetup<2> s = pair(concrete(), Configuration::reference, 0.4, false);
   Simulation<2> run(s);
   advance(run, 4000);
   const double opening = run.particles().point[0].crack.jump[0];
@@ -141,7 +141,7 @@ TEST(Fracture, PairDissipatesTheFractureEnergy) {
 
 /// In `updated` an opening of a sixth of the spacing makes the particles a sixth larger, and the work done on them too.
 TEST(Fracture, EnergyBalancesWhereParticlesGrowByTheirCracks) {
-  Scene<2> s = pair(concrete(), Configuration::updated, 0.4, false);
+  RunSetup<2> s = pair(concrete(), Configuration::updated, 0.4, false);
   Simulation<2> run(s);
   advance(run, 4000);
   const Energies e = run.energies();
@@ -154,7 +154,7 @@ TEST(Fracture, EnergyBalancesWhereParticlesGrowByTheirCracks) {
 /// are cut and the halves fly apart: momentum zero in all, no force between them in the end, energy balanced, the
 /// fracture energy of one crack dissipated by the two columns whose H is their common width.
 TEST(Fracture, TwoPiecesFlyApart) {
-  Scene<2> s = block(24, 6, 0.0, spacing);
+  RunSetup<2> s = block(24, 6, 0.0, spacing);
   s.parameters = concrete();
   s.options.courant = 0.15;
   s.options.release_integrity = 0.02;

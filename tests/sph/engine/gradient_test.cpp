@@ -1,7 +1,7 @@
 // What the corrected gradient and its adjoint do exactly.
 #include <cmath>
 
-#include "scenes.hpp"
+#include "setups.hpp"
 
 namespace fpz::sph::test {
 namespace {
@@ -17,9 +17,9 @@ Matrix matrix(double xx, double xy, double yx, double yy) {
 const Matrix velocity_gradient = matrix(30.0, -20.0, 50.0, 10.0);  // 1/s
 
 /// Neighbour lists with any number of particles and any gaps: a jittered block with a hole and ragged edges.
-Scene<2> ragged() {
-  Scene<2> s = block(14, 11, 0.25);
-  Scene<2> out = s;
+RunSetup<2> ragged() {
+  RunSetup<2> s = block(14, 11, 0.25);
+  RunSetup<2> out = s;
   out.arrangement = {};
   out.arrangement.spacing = s.arrangement.spacing;
   for (std::size_t i = 0; i < s.arrangement.size(); ++i) {
@@ -34,7 +34,7 @@ Scene<2> ragged() {
 TEST(Gradient, LinearFieldIsExactInTheReferenceConfiguration) {
   for (const Kernel kernel : {Kernel::cubic_spline, Kernel::wendland_c2}) {
     for (const MomentumForm form : {MomentumForm::adjoint, MomentumForm::paper}) {
-      Scene<2> s = ragged();
+      RunSetup<2> s = ragged();
       s.options.kernel = kernel;
       s.options.momentum = form;
       Simulation<2> run(s);
@@ -53,7 +53,7 @@ TEST(Gradient, LinearFieldIsExactInTheReferenceConfiguration) {
 /// F = I + dt A: rotation and stretch of every particle's step must be those of F.
 TEST(Gradient, LinearMotionIsExactInTheUpdatedConfiguration) {
   for (const Kernel kernel : {Kernel::cubic_spline, Kernel::wendland_c2}) {
-    Scene<2> s = ragged();
+    RunSetup<2> s = ragged();
     s.options.configuration = Configuration::updated;
     s.options.kernel = kernel;
     s.options.viscosity_alpha = 0.0;  // acts from the start, before any stress
@@ -80,7 +80,7 @@ TEST(Gradient, LinearMotionIsExactInTheUpdatedConfiguration) {
 /// of particles with full neighbourhoods is zero, in both forms.
 TEST(Gradient, ConstantStressGivesNoForceInsideALattice) {
   for (const Variant& v : variants) {
-    Scene<2> s = block(16, 15);
+    RunSetup<2> s = block(16, 15);
     s.options.configuration = v.configuration;
     s.options.momentum = v.momentum;
     s.options.viscosity_alpha = 0.0;
@@ -106,7 +106,7 @@ TEST(Gradient, ConstantStressGivesNoForceInsideALattice) {
 TEST(Gradient, AdjointForceDoesTheWorkOfTheStress) {
   for (const Configuration configuration : {Configuration::reference, Configuration::updated}) {
     for (const Kernel kernel : {Kernel::cubic_spline, Kernel::wendland_c2}) {
-      Scene<2> s = ragged();
+      RunSetup<2> s = ragged();
       s.options.configuration = configuration;
       s.options.kernel = kernel;
       s.options.viscosity_alpha = 0.0;
@@ -136,7 +136,7 @@ TEST(Gradient, AdjointForceDoesTheWorkOfTheStress) {
 
 /// Collinear neighbours: the gradient along the line is exact, none is made up across it. A lone particle has none.
 TEST(Gradient, DegenerateNeighbourhoods) {
-  Scene<2> s;
+  RunSetup<2> s;
   s.parameters = unbreakable();
   s.arrangement.spacing = 1e-3;
   for (int i = 0; i < 6; ++i) s.arrangement.add(vec(0.6e-3 * i, 0.8e-3 * i), 1e-6);

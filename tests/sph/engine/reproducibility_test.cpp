@@ -2,20 +2,20 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "scenes.hpp"
+#include "setups.hpp"
 
 namespace fpz::sph::test {
 namespace {
 
 /// A notched block torn at its ends: cracks grow, some particles crack early.
-Scene<2> torn(const Variant& v) {
-  Scene<2> s = block(30, 14);
+RunSetup<2> torn(const Variant& v) {
+  RunSetup<2> s = block(30, 14);
   s.parameters = concrete();
   s.options.configuration = v.configuration;
   s.options.momentum = v.momentum;
   s.options.damping = 0.05;
   s.options.release_integrity = 0.3;
-  Scene<2> notched = s;
+  RunSetup<2> notched = s;
   notched.arrangement = {};
   notched.arrangement.spacing = s.arrangement.spacing;
   for (std::size_t i = 0; i < s.arrangement.size(); ++i) {
@@ -29,7 +29,7 @@ Scene<2> torn(const Variant& v) {
   return notched;
 }
 
-std::vector<unsigned char> state_after(Scene<2> s, int steps) {
+std::vector<unsigned char> state_after(RunSetup<2> s, int steps) {
   Simulation<2> run(s);
   advance(run, steps);
   EXPECT_GT(run.cracked(), 5U);
@@ -40,7 +40,7 @@ constexpr int steps = 400;
 
 TEST(Reproducibility, ThreadsDoNotChangeABit) {
   for (const Variant& v : variants) {
-    Scene<2> s = torn(v);
+    RunSetup<2> s = torn(v);
     const std::vector<unsigned char> one = state_after(s, steps / 4);
     for (const int threads : {2, 3}) {
       s.options.threads = threads;
@@ -51,7 +51,7 @@ TEST(Reproducibility, ThreadsDoNotChangeABit) {
 
 TEST(Reproducibility, InstructionSetsDoNotChangeABit) {
   for (const Variant& v : variants) {
-    Scene<2> s = torn(v);
+    RunSetup<2> s = torn(v);
     s.options.instruction_set = InstructionSet::baseline;
     const std::vector<unsigned char> baseline = state_after(s, steps);
     for (const InstructionSet i : {InstructionSet::avx2, InstructionSet::avx512}) {
@@ -63,7 +63,7 @@ TEST(Reproducibility, InstructionSetsDoNotChangeABit) {
 
 TEST(Reproducibility, SnapshotContinuesBitForBit) {
   for (const Variant& v : variants) {
-    const Scene<2> s = torn(v);
+    const RunSetup<2> s = torn(v);
     Simulation<2> whole(s);
     advance(whole, steps / 2);
     EXPECT_EQ(whole.released_bonds() > 0, v.configuration == Configuration::reference);
@@ -79,7 +79,7 @@ TEST(Reproducibility, SnapshotContinuesBitForBit) {
 }
 
 TEST(Reproducibility, BadSnapshotsAreRefused) {
-  Scene<2> s = torn(variants[0]);
+  RunSetup<2> s = torn(variants[0]);
   Simulation<2> run(s);
   advance(run, 10);
   std::vector<unsigned char> bytes = run.snapshot();
@@ -93,13 +93,13 @@ TEST(Reproducibility, BadSnapshotsAreRefused) {
   EXPECT_THROW(other.restore(bytes), std::runtime_error);
 }
 
-/// Largest difference of |velocity| between a run and the same scene turned and mirrored, over the largest |velocity|.
+/// Largest difference of |velocity| between a run and the same set-up turned and mirrored, over the largest |velocity|.
 double asymmetry(const Variant& v, double angle, bool mirror) {
-  Scene<2> s = block(16, 10);
+  RunSetup<2> s = block(16, 10);
   s.options.configuration = v.configuration;
   s.options.momentum = v.momentum;
   set_velocity(s, [](const Vector& x) { return vec(0.3 * std::sin(300.0 * x[0]) + 20.0 * x[1], -15.0 * x[0]); });
-  Scene<2> t = s;
+  RunSetup<2> t = s;
   Mat<double, 2, 2> q;
   q << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
   if (mirror) q.col(0) *= -1.0;

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "scenes.hpp"
+#include "setups.hpp"
 
 namespace fpz::sph::test {
 namespace {
@@ -16,22 +16,22 @@ struct Bar {
   static constexpr double ramp = 1e-5;
   static constexpr int rows = 4;
 
-  explicit Bar(int columns, Configuration configuration) : scene(block(columns, rows, 0.0, length / columns)) {
+  explicit Bar(int columns, Configuration configuration) : setup(block(columns, rows, 0.0, length / columns)) {
     const double dx = length / columns;
-    scene.options.configuration = configuration;
-    scene.options.viscosity_alpha = 0.0;
-    scene.options.artificial_stress = 0.0;
-    scene.options.courant = 0.2;
+    setup.options.configuration = configuration;
+    setup.options.viscosity_alpha = 0.0;
+    setup.options.artificial_stress = 0.0;
+    setup.options.courant = 0.2;
     const Motion still{0.0, 0.0};
-    add_group(scene, {"walls", {std::nullopt, still}, true}, [](const Vector&) { return true; });
-    add_group(scene, {"driven", {Motion{speed, ramp}, still}, true}, [dx](const Vector& x) { return x[0] < dx; });
-    add_group(scene, {"fixed", {still, still}, true}, [dx](const Vector& x) { return x[0] > length - dx; });
-    const Material<double> m = make_material(scene.parameters, scene.setting);
-    celerity = std::sqrt((m.bulk.lambda + 2.0 * m.bulk.mu) / scene.parameters.density);
+    add_group(setup, {"walls", {std::nullopt, still}, true}, [](const Vector&) { return true; });
+    add_group(setup, {"driven", {Motion{speed, ramp}, still}, true}, [dx](const Vector& x) { return x[0] < dx; });
+    add_group(setup, {"fixed", {still, still}, true}, [dx](const Vector& x) { return x[0] > length - dx; });
+    const Material<double> m = make_material(setup.parameters, setup.setting);
+    celerity = std::sqrt((m.bulk.lambda + 2.0 * m.bulk.mu) / setup.parameters.density);
     driven_at = 0.5 * dx;
   }
 
-  Scene<2> scene;
+  RunSetup<2> setup;
   double celerity = 0.0;
   double driven_at = 0.0;
 };
@@ -39,7 +39,7 @@ struct Bar {
 /// Relative error (maximum norm) of the velocities of a middle row when the wave is at 60 % of the bar.
 double wave_error(int columns, Configuration configuration) {
   const Bar bar(columns, configuration);
-  Simulation<2> run(bar.scene);
+  Simulation<2> run(bar.setup);
   advance(run, static_cast<long long>(0.6 * Bar::length / bar.celerity / run.time_step()));
   const Motion drive{Bar::speed, Bar::ramp};
   const Particles<2>& p = run.particles();
@@ -79,8 +79,8 @@ double mean_stress(const Simulation<2>& run, double from, double to) {
 
 TEST(Waves, StressIsImpedanceTimesVelocityAndDoublesAtAFixedEnd) {
   const Bar bar(200, Configuration::reference);
-  Simulation<2> run(bar.scene);
-  const double exact = -bar.scene.parameters.density * bar.celerity * Bar::speed;
+  Simulation<2> run(bar.setup);
+  const double exact = -bar.setup.parameters.density * bar.celerity * Bar::speed;
   const double crossing = Bar::length / bar.celerity;
   advance(run, static_cast<long long>(0.9 * crossing / run.time_step()));
   EXPECT_NEAR(mean_stress(run, 0.015, 0.04) / exact, 1.0, 5e-3);
@@ -95,7 +95,7 @@ double plate_period(Configuration configuration, int layers) {
   constexpr double thickness = 0.02;
   const double dx = thickness / layers;
   const int clamped = 3;
-  Scene<2> s;
+  RunSetup<2> s;
   s.parameters = unbreakable();
   s.parameters.young_modulus = 2e6;
   s.parameters.poisson_ratio = 0.3975;

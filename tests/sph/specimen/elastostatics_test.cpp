@@ -3,7 +3,7 @@
 #include <numbers>
 
 #include "fpz/specimen/placing.hpp"
-#include "sph/engine/scenes.hpp"
+#include "sph/engine/setups.hpp"
 
 namespace fpz::sph::test {
 namespace {
@@ -86,7 +86,7 @@ Comparison pressed(double inner, double spacing, specimen::Pattern::Kind kind) {
   constexpr double ramp = 0.01;       // s, twenty times the travel of a wave across it: no oscillation to speak of
   specimen::Body body;
   body.shape = specimen::Ring{Point::Zero(), inner, 1.0};
-  Scene<2> s;
+  RunSetup<2> s;
   s.parameters = unbreakable();
   s.arrangement = specimen::place_specimen(body, {kind, 0.0, Point::Zero(), false}, spacing);
   const std::size_t specimen = s.arrangement.size();

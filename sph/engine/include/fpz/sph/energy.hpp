@@ -1,23 +1,72 @@
 // The energies of a run and their balance.
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <string_view>
+
 namespace fpz::sph {
 
-/// Joule (per metre of thickness in 2-D). The sinks of the balance external = elastic + kinetic + fracture + viscous +
-/// damping + artificial, all counted from the start; kinetic is the difference from the start.
+/// Joule (per metre of thickness in 2-D). The balance is external = elastic + kinetic + fracture + viscous + damping +
+/// artificial, all counted from the start; kinetic is the difference from the start.
 struct Energies {
   double external = 0.0;    ///< work of prescribed motions and of gravity
   double elastic = 0.0;     ///< stored in bulk and cohesive zones
   double kinetic = 0.0;     ///< sum m v(n-1/2).v(n+1/2)/2, the leap-frog's own invariant
   double fracture = 0.0;    ///< dissipated by the cohesive zones
-  double viscous = 0.0;     ///< dissipated by artificial viscosity and by the control of zero-energy velocities
+  double viscous = 0.0;     ///< dissipated by artificial viscosity and by the zero-energy control
   double damping = 0.0;     ///< dissipated by local damping
   double artificial = 0.0;  ///< taken by the artificial stress (may be negative)
   double kinetic_start = 0.0;
 
-  [[nodiscard]] double error() const {
-    return external - (elastic + kinetic - kinetic_start + fracture + viscous + damping + artificial);
-  }
+  /// What the balance lacks: zero for exact integration.
+  [[nodiscard]] constexpr double error() const;
 };
+
+/// Side of the balance: what comes in, what is kept or taken, and what was there at the start.
+enum class EnergyRole : std::uint8_t { source, sink, initial };
+
+struct EnergyTerm {
+  std::string_view name;  ///< "energy_" + name is the column of a history
+  double Energies::*member;
+  EnergyRole role;
+  std::string_view text;  ///< one line for tables
+};
+
+/// The one list of the terms, in the order in which they are added and reported.
+// clang-format off
+inline constexpr std::array<EnergyTerm, 8> energy_terms = {{
+    {"external",      &Energies::external,      EnergyRole::source,  "work of prescribed motions and of gravity"},
+    {"elastic",       &Energies::elastic,       EnergyRole::sink,    "stored in the bulk and in cohesive zones"},
+    {"kinetic",       &Energies::kinetic,       EnergyRole::sink,    "kinetic, of the leap-frog"},
+    {"kinetic_start", &Energies::kinetic_start, EnergyRole::initial, "kinetic at the start"},
+    {"fracture",      &Energies::fracture,      EnergyRole::sink,    "dissipated by the cohesive zones"},
+    {"viscous",       &Energies::viscous,       EnergyRole::sink,
+     "dissipated by artificial viscosity and by the zero-energy control"},
+    {"damping",       &Energies::damping,       EnergyRole::sink,    "dissipated by local damping"},
+    {"artificial",    &Energies::artificial,    EnergyRole::sink,    "taken by the artificial stress"},
+}};
+// clang-format on
+
+constexpr double Energies::error() const {
+  double in = 0.0;
+  double taken = 0.0;
+  for (const EnergyTerm& term : energy_terms) {
+    const double energy = this->*term.member;
+    if (term.role == EnergyRole::source) in += energy;
+    if (term.role == EnergyRole::sink) taken += energy;
+    if (term.role == EnergyRole::initial) taken -= energy;
+  }
+  return in - taken;
+}
+
+/// Calls report(name, J) for what a history shows: every term but the initial one, then "error".
+template <class Report>
+constexpr void for_each_energy(const Energies& e, Report&& report) {
+  for (const EnergyTerm& term : energy_terms) {
+    if (term.role != EnergyRole::initial) report(term.name, e.*term.member);
+  }
+  report(std::string_view("error"), e.error());
+}
 
 }  // namespace fpz::sph

@@ -1,4 +1,5 @@
-// Choices of the particle method. Every default is meant for quasi-static fracture tests of small specimens.
+// Options of the particle method, with the defaults of a quasi-static fracture test of a small specimen. What files,
+// checks and tables know about each of them is in option_table.hpp.
 #pragma once
 
 #include <cstdint>
@@ -47,13 +48,13 @@ struct Options {
   double artificial_stress = 0.2;    ///< updated: fraction of a tensile principal stress that repels close particles
   double skin = 0.3;                 ///< updated: margin of the neighbour lists, in spacings
   /// reference: viscosity, in units of rho c h, against relative velocities along a bond that the velocity gradients of
-  /// its two ends do not explain. The gradient does not see velocities that alternate from particle to particle. 0:
-  /// off.
+  /// its two ends do not explain. The gradient does not see velocities that alternate from particle to particle.
+  /// 0: off.
   double zero_energy_control = 0.01;
   double damping = 0.0;     ///< local damping: this part of the resultant force opposes the velocity
   double mass_scale = 1.0;  ///< inertia is multiplied by this (gravity is not)
-  /// reference: bonds across a crack whose integrity 1 - D is below this, and which carry at least half of its opening,
-  /// are cut. 0: never.
+  /// reference: the bonds of a crack whose integrity 1 - D is below this are cut where the displacements of their two
+  /// ends differ by at least half of its opening. 0: never.
   double release_integrity = 0.0;
   Vec<double, Dim> gravity = Vec<double, Dim>::Zero();  ///< m/s^2
   int threads = 0;                                      ///< 0: all that OpenMP offers
@@ -61,3 +62,40 @@ struct Options {
 };
 
 }  // namespace fpz::sph
+
+namespace fpz {
+
+template <>
+struct Words<sph::Configuration> {
+  static constexpr Word<sph::Configuration> list[] = {{sph::Configuration::reference, "reference"},
+                                                      {sph::Configuration::updated, "updated"}};
+};
+
+template <>
+struct Words<sph::MomentumForm> {
+  static constexpr Word<sph::MomentumForm> list[] = {{sph::MomentumForm::adjoint, "adjoint"},
+                                                     {sph::MomentumForm::paper, "paper"}};
+};
+
+template <>
+struct Words<sph::Kernel> {
+  static constexpr Word<sph::Kernel> list[] = {{sph::Kernel::cubic_spline, "cubic_spline"},
+                                               {sph::Kernel::wendland_c2, "wendland_c2"}};
+};
+
+/// The rules that are words; `number` is stated by the number itself.
+template <>
+struct Words<sph::RveLength::Rule> {
+  static constexpr Word<sph::RveLength::Rule> list[] = {{sph::RveLength::Rule::spacing, "spacing"},
+                                                        {sph::RveLength::Rule::band, "band"}};
+};
+
+template <>
+struct Words<sph::InstructionSet> {
+  static constexpr Word<sph::InstructionSet> list[] = {{sph::InstructionSet::best, "best"},
+                                                       {sph::InstructionSet::baseline, "baseline"},
+                                                       {sph::InstructionSet::avx2, "avx2"},
+                                                       {sph::InstructionSet::avx512, "avx512"}};
+};
+
+}  // namespace fpz

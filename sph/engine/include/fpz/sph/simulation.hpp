@@ -23,7 +23,7 @@ struct Engine;
 
 /// Everything that defines a run.
 template <int Dim>
-struct Scene {
+struct RunSetup {
   Arrangement<Dim> arrangement;
   std::vector<Group<Dim>> groups;
   Parameters parameters;  ///< rve_length is ignored: options.rve_length decides
@@ -32,26 +32,26 @@ struct Scene {
   std::vector<Vec<double, Dim>> velocity;  ///< at the start, per particle, m/s; empty: at rest
 };
 
-/// What is wrong with a scene, one message per problem with the field's name; empty when it can run.
+/// What is wrong with a set-up, one message per problem with the field's name; empty when it can run.
 template <int Dim>
-[[nodiscard]] std::vector<std::string> problems(const Scene<Dim>& scene);
+[[nodiscard]] std::vector<std::string> problems(const RunSetup<Dim>& setup);
 
 /// The time step of eq 32, s: courant * h/sqrt(E/rho), times sqrt(mass_scale).
 template <int Dim>
-[[nodiscard]] double courant_step(const Scene<Dim>& scene);
+[[nodiscard]] double courant_step(const RunSetup<Dim>& setup);
 
 /// The longest stable time step of the elastic body of this arrangement, s: 2/omega with the largest frequency omega
 /// found by power iteration (some hundred times the work of a step), or what the control of zero-energy velocities
 /// needs where that is shorter. Viscosity and local damping shorten it further.
 template <int Dim>
-[[nodiscard]] double stability_limit(const Scene<Dim>& scene);
+[[nodiscard]] double stability_limit(const RunSetup<Dim>& setup);
 
 /// Part of the measured limit that a run uses at most.
 inline constexpr double stability_margin = 0.9;
 
 /// The time step of a run, s: eq 32, or stability_margin * stability_limit() where that is shorter.
 template <int Dim>
-[[nodiscard]] double time_step(const Scene<Dim>& scene);
+[[nodiscard]] double time_step(const RunSetup<Dim>& setup);
 
 /// One run. Particles interact with all others of the arrangement, boundary groups included. The result does not depend
 /// on the number of threads or on the instruction set.
@@ -59,7 +59,7 @@ template <int Dim>
 class Simulation {
  public:
   /// Throws std::invalid_argument with all problems().
-  explicit Simulation(const Scene<Dim>& scene);
+  explicit Simulation(const RunSetup<Dim>& setup);
   ~Simulation();
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;
@@ -85,7 +85,7 @@ class Simulation {
   [[nodiscard]] double mean_neighbours() const;
 
   /// The complete state as bytes; restore() continues bit for bit. Throws std::runtime_error when the bytes are damaged
-  /// or belong to another scene.
+  /// or belong to another set-up.
   [[nodiscard]] std::vector<unsigned char> snapshot() const;
   void restore(std::span<const unsigned char> bytes);
 

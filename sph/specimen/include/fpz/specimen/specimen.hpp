@@ -24,7 +24,7 @@ struct BoundGauge {
 
 /// Everything that a run needs besides its output.
 struct Specimen {
-  sph::Scene<2> setup;
+  sph::RunSetup<2> setup;
   std::map<std::string, BoundGauge> gauges;
   double area = 0.0;  ///< of the specimen without boundary particles, m^2
 };

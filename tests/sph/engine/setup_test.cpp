@@ -1,23 +1,23 @@
-// What is wrong with a scene, and what goes wrong in a run.
+// What is wrong with a set-up, and what goes wrong in a run.
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 
-#include "scenes.hpp"
+#include "setups.hpp"
 
 namespace fpz::sph::test {
 namespace {
 
-bool complains(const Scene<2>& s, const std::string& word) {
+bool complains(const RunSetup<2>& s, const std::string& word) {
   for (const std::string& text : problems(s)) {
     if (text.find(word) != std::string::npos) return true;
   }
   return false;
 }
 
-TEST(Scene, EveryProblemIsNamed) {
+TEST(RunSetup, EveryProblemIsNamed) {
   EXPECT_TRUE(problems(block(4, 4)).empty());
-  Scene<2> s = block(4, 4);
+  RunSetup<2> s = block(4, 4);
   s.options.courant = -1.0;
   s.options.damping = 1.0;
   s.options.mass_scale = 0.5;
@@ -36,8 +36,8 @@ TEST(Scene, EveryProblemIsNamed) {
   EXPECT_TRUE(complains(s, "no particles"));
 }
 
-TEST(Scene, ExplosionIsReported) {
-  Scene<2> s = block(10, 10);
+TEST(RunSetup, ExplosionIsReported) {
+  RunSetup<2> s = block(10, 10);
   set_velocity(s, [](const Vector& x) { return vec(x[0] > 8e-3 ? 8000.0 : 0.0, 0.0); });
   Simulation<2> run(s);
   Outcome o;
@@ -48,8 +48,8 @@ TEST(Scene, ExplosionIsReported) {
 }
 
 /// Two particles: strain (u2 - u1)/d in both, so omega = 2 c/d with the confined wave speed c.
-TEST(Scene, StabilityLimitOfAPairIsExact) {
-  Scene<2> s = block(2, 1);
+TEST(RunSetup, StabilityLimitOfAPairIsExact) {
+  RunSetup<2> s = block(2, 1);
   const Material<double> m = make_material(s.parameters, s.setting);
   const double celerity = std::sqrt((m.bulk.lambda + 2.0 * m.bulk.mu) / s.parameters.density);
   EXPECT_NEAR(stability_limit(s), 1e-3 / celerity, 1e-5 * 1e-3 / celerity);
@@ -57,9 +57,9 @@ TEST(Scene, StabilityLimitOfAPairIsExact) {
 
 /// The measured limit bounds the time step, so that no Courant number makes an elastic run explode, however irregular
 /// the arrangement.
-TEST(Scene, TimeStepIsBoundedByTheMeasuredLimit) {
+TEST(RunSetup, TimeStepIsBoundedByTheMeasuredLimit) {
   for (const Configuration c : {Configuration::reference, Configuration::updated}) {
-    Scene<2> s = block(14, 9, 0.35);
+    RunSetup<2> s = block(14, 9, 0.35);
     s.options.configuration = c;
     s.options.viscosity_alpha = c == Configuration::updated ? 0.1 : 0.0;
     s.options.courant = 10.0;
@@ -74,8 +74,8 @@ TEST(Scene, TimeStepIsBoundedByTheMeasuredLimit) {
 }
 
 /// H beyond the snap-back length is an error of the stress update, not a wrong number.
-TEST(Scene, SnapBackIsReported) {
-  Scene<2> s = block(12, 4);
+TEST(RunSetup, SnapBackIsReported) {
+  RunSetup<2> s = block(12, 4);
   s.parameters = concrete();
   s.options.rve_length = {RveLength::Rule::number, 5.0};
   set_velocity(s, [](const Vector& x) { return vec(x[0] < 6e-3 ? -2.0 : 2.0, 0.0); });
@@ -88,8 +88,8 @@ TEST(Scene, SnapBackIsReported) {
 }
 
 /// Neighbours against all pairs, on an irregular cloud with distant outliers.
-TEST(Scene, NeighboursAgreeWithAllPairs) {
-  Scene<2> s = block(15, 9, 0.4);
+TEST(RunSetup, NeighboursAgreeWithAllPairs) {
+  RunSetup<2> s = block(15, 9, 0.4);
   s.arrangement.add(vec(5.0, -3.0), 1e-6);
   s.arrangement.add(vec(5.0005, -3.0005), 1e-6);
   const double reach = kernel_support * s.options.smoothing_ratio * s.arrangement.spacing;
@@ -102,8 +102,8 @@ TEST(Scene, NeighboursAgreeWithAllPairs) {
 }
 
 /// A long journey in the updated configuration makes the lists anew, standing still does not.
-TEST(Scene, ListsAreRebuiltOnlyWhenNeeded) {
-  Scene<2> s = block(8, 8);
+TEST(RunSetup, ListsAreRebuiltOnlyWhenNeeded) {
+  RunSetup<2> s = block(8, 8);
   s.options.configuration = Configuration::updated;
   Simulation<2> still(s);
   advance(still, 200);

@@ -36,8 +36,8 @@ inline Parameters unbreakable() {
 
 /// columns x rows lattice of spacing 1 mm with its corner at the origin, optionally moved at random by up to `jitter`
 /// spacings, with volumes that vary alike.
-inline Scene<2> block(int columns, int rows, double jitter = 0.0, double spacing = 1e-3) {
-  Scene<2> s;
+inline RunSetup<2> block(int columns, int rows, double jitter = 0.0, double spacing = 1e-3) {
+  RunSetup<2> s;
   s.parameters = unbreakable();
   s.arrangement.spacing = spacing;
   add_lattice<2>(s.arrangement, vec(0.0, 0.0), vec(columns * spacing, rows * spacing));
@@ -54,13 +54,13 @@ inline Scene<2> block(int columns, int rows, double jitter = 0.0, double spacing
 }
 
 /// Start velocities from a field of the position.
-inline void set_velocity(Scene<2>& s, const std::function<Vector(const Vector&)>& field) {
+inline void set_velocity(RunSetup<2>& s, const std::function<Vector(const Vector&)>& field) {
   s.velocity.clear();
   for (const Vector& x : s.arrangement.position) s.velocity.push_back(field(x));
 }
 
 /// Puts the particles for which `inside` holds into a new group.
-inline void add_group(Scene<2>& s, const Group<2>& group, const std::function<bool(const Vector&)>& inside) {
+inline void add_group(RunSetup<2>& s, const Group<2>& group, const std::function<bool(const Vector&)>& inside) {
   const int index = static_cast<int>(s.groups.size());
   s.groups.push_back(group);
   for (std::size_t i = 0; i < s.arrangement.size(); ++i) {
