@@ -20,9 +20,8 @@ expected_programs() {
   has() { [[ "+$1+" == *"+$2+"* ]]; }
   {
     if has "$1" DRIVER; then echo fpz-driver; fi
-    if has "$1" CALIBRATION; then echo fpz-calibrate; fi
-    if has "$1" SPH; then echo fpz-sph; fi
-    if has "$1" SPH && has "$1" CALIBRATION; then echo fpz-sph-report; fi
+    if has "$1" CALIBRATION; then printf '%s\n' fpz-calibrate fpz-notched-reference; fi
+    if has "$1" SPH; then printf '%s\n' fpz-sph fpz-sph-report; fi
     if has "$1" BENCH; then printf '%s\n' fpz-bench fpz-speed-report; fi
     if has "$1" BENCH && has "$1" SPH; then echo fpz-sph-bench; fi
     if has "$1" BENCH && has "$1" CALIBRATION; then echo fpz-beam-bench; fi

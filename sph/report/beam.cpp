@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "beam_reference.hpp"
+#include "notched_reference.hpp"
 #include "sections.hpp"
 #include "text.hpp"
 

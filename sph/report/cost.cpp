@@ -3,7 +3,7 @@
 #include <cmath>
 #include <map>
 
-#include "beam_reference.hpp"
+#include "notched_reference.hpp"
 #include "sections.hpp"
 #include "text.hpp"
 

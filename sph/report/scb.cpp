@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "beam_reference.hpp"
 #include "fpz/specimen/run.hpp"
+#include "notched_reference.hpp"
 #include "sections.hpp"
 #include "text.hpp"
 

@@ -1,21 +1,21 @@
-// What finite elements say about a notched specimen with a straight crack in pure mode I (fpz::calibration), and how
-// far a run is off.
+// What finite elements say about a notched specimen with a straight crack in pure mode I (data/reference), and how far
+// a run is off.
 #pragma once
 
-#include "fpz/calibration/notched_specimen.hpp"
+#include "reference_curve.hpp"
 #include "results.hpp"
 
 namespace fpz::report {
 
 struct Reference {
-  calibration::FractureCurve curve;
+  ReferenceCurve curve;
   double peak = 0.0;       ///< N
   double stiffness = 0.0;  ///< slope of the load over the mid-depth deflection between 10 and 40 % of the peak, N/m
   double notch_stiffness = 0.0;  ///< the same over the opening of the notch, N/m
 };
 
-/// The beam of section 5.1 with the material of a run, load and supports as even pressures over `roller_width` (m; 0:
-/// points).
+/// The notched beam of a run, load and supports as even pressures over `roller_width` (m; 0: points). Throws
+/// io::InputError when data/reference has no curve for its geometry, material and roller width.
 [[nodiscard]] Reference beam_reference(const Run& run, double roller_width);
 
 /// The semicircular specimen of a run with its notch upright.
