@@ -36,10 +36,10 @@ same=0
 different=0
 missing=0
 
-# Wall times, and numbers made of them, in the JSON files and the messages of the programs.
+# Without wall times, and numbers made of them, in the JSON files and the messages of the programs.
 without_times() {
   sed -E -e 's/"(wall_seconds|stepping_seconds|particle_steps_per_second)": [-+.0-9e]+/"\1": -/' \
-    -e 's/, [-+.0-9e]+ s$/, - s/' "$1"
+    -e 's/, [-+.0-9e]+ s$/, - s/' -e '/ elapsed/d' "$1"
 }
 
 # one_side <old|new> <case> <program> <arguments>...: output in OUT (replaced by the case's folder), what the program

@@ -5,7 +5,6 @@
 #include <cstdio>
 #include <limits>
 #include <map>
-#include <string_view>
 
 #include "fpz/driver/history.hpp"
 #include "fpz/driver/path_file.hpp"
@@ -15,28 +14,6 @@ namespace {
 
 constexpr double same_time = 1e-9;
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-
-enum class Kind { stress, energy, damage, jump, strain, ignored };
-
-/// The name in history.csv of a reference's column; empty when it is none of ours.
-std::string our_name(const std::string& name) {
-  static const std::map<std::string, std::string, std::less<>> aliases = {
-      {"T", "time"},     {"sxx", "sig_xx"}, {"syy", "sig_yy"}, {"szz", "sig_zz"}, {"sxy", "sig_xy"},
-      {"sxz", "sig_xz"}, {"syz", "sig_yz"}, {"tn", "t_n"},     {"ts1", "t_s1"},   {"ts2", "t_s2"},
-      {"un", "u_n"},     {"us1", "u_s1"},   {"us2", "u_s2"}};
-  const auto alias = aliases.find(name);
-  if (alias != aliases.end()) return alias->second;
-  return find_column(name) ? name : std::string();
-}
-
-Kind kind_of(std::string_view name) {
-  if (name.starts_with("sig_") || name.starts_with("t_")) return Kind::stress;
-  if (name.starts_with("energy_")) return Kind::energy;
-  if (name == "D" || name == "cracked" || name.starts_with("n_")) return Kind::damage;
-  if (name.starts_with("u_") || name.starts_with("up_")) return Kind::jump;
-  if (name.starts_with("eps_")) return Kind::strain;
-  return Kind::ignored;  // counters, time and text
-}
 
 /// Where the history has a time of the reference.
 struct Place {
@@ -71,28 +48,30 @@ double largest(const std::vector<double>& column) {
   return m;
 }
 
-/// Scale and tolerance of each kind of column.
+/// Scale and tolerance of each quantity.
 class Scales {
  public:
   Scales(const io::Table& reference, const CompareOptions& options) : options_(options) {
     for (std::size_t k = 0; k < reference.names.size(); ++k) {
-      double& scale = scale_[kind_of(our_name(reference.names[k]))];
+      const Column* column = find_column_or_alias(reference.names[k]);
+      if (column == nullptr) continue;
+      double& scale = scale_[column->quantity];
       scale = std::max(scale, largest(reference.columns[k]));
     }
-    if (options.stress_scale > 0.0) scale_[Kind::stress] = options.stress_scale;
-    scale_[Kind::damage] = 1.0;
+    if (options.stress_scale > 0.0) scale_[Quantity::stress] = options.stress_scale;
+    scale_[Quantity::fraction] = 1.0;
   }
-  [[nodiscard]] double scale(Kind kind) const {
-    const auto found = scale_.find(kind);
+  [[nodiscard]] double scale(Quantity quantity) const {
+    const auto found = scale_.find(quantity);
     return found == scale_.end() || found->second == 0.0 ? 1.0 : found->second;
   }
-  [[nodiscard]] double tolerance(Kind kind) const {
-    switch (kind) {
-      case Kind::damage:
+  [[nodiscard]] double tolerance(Quantity quantity) const {
+    switch (quantity) {
+      case Quantity::fraction:
         return options_.damage_tolerance;
-      case Kind::jump:
+      case Quantity::jump:
         return options_.jump_tolerance;
-      case Kind::strain:
+      case Quantity::strain:
         return options_.strain_tolerance;
       default:
         return options_.stress_tolerance;
@@ -101,7 +80,7 @@ class Scales {
 
  private:
   const CompareOptions& options_;
-  std::map<Kind, double> scale_;
+  std::map<Quantity, double> scale_;
 };
 
 ColumnDifference compare_column(const std::string& name, const std::vector<double>& ours,
@@ -171,21 +150,22 @@ Comparison compare_histories(const io::Table& history, const io::Table& referenc
   places.resize(times.size());
   const Scales scales(reference, options);
   for (std::size_t k = 0; k < reference.names.size(); ++k) {
-    const std::string name = our_name(reference.names[k]);
-    if (name.empty()) {
+    const Column* column = find_column_or_alias(reference.names[k]);
+    if (column == nullptr) {
       out.problems.push_back("column \"" + reference.names[k] + "\" of the reference is unknown");
       continue;
     }
-    const Kind kind = kind_of(name);
-    if (kind == Kind::ignored) continue;
+    if (column->quantity == Quantity::count) continue;
+    const std::string name(column->name);
     const std::vector<double>* ours = history.find(name);
     if (!ours) ours = history.find(reference.names[k]);  // two references against each other
     if (!ours) {
       out.problems.push_back("column \"" + name + "\" is missing in " + history.origin);
       continue;
     }
-    ColumnDifference d = compare_column(name, *ours, reference.columns[k], times, places, scales.scale(kind));
-    d.tolerance = scales.tolerance(kind);
+    ColumnDifference d =
+        compare_column(name, *ours, reference.columns[k], times, places, scales.scale(column->quantity));
+    d.tolerance = scales.tolerance(column->quantity);
     out.columns.push_back(std::move(d));
   }
   return out;

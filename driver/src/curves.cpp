@@ -7,6 +7,8 @@
 #include <numbers>
 #include <utility>
 
+#include "fpz/driver/path_file.hpp"
+
 namespace fpz::driver {
 namespace {
 
@@ -232,8 +234,9 @@ Panel HistoryCurves::loading_path() const {
   p.x_label = "Time (stages)";
   p.y_label = "Strain (10^{-3})";
   int colour = 0;
-  for (const char* component : {"xx", "yy", "zz", "xy", "xz", "yz"}) {
-    const auto& strain = table_.at(std::string("eps_") + component);
+  for (const std::string_view name : component_names) {
+    const std::string component(name);
+    const auto& strain = table_.at("eps_" + component);
     const bool moves = std::any_of(strain.begin(), strain.end(), [](double v) { return v != 0.0; });
     if (!moves) continue;
     p.curves.push_back({over_time([&](std::size_t i) { return milli * strain[i]; }),

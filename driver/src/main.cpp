@@ -50,7 +50,7 @@ std::vector<fs::path> test_folders(const PathFile& paths, const fs::path& out) {
   return folders;
 }
 
-void plot_test(const io::Table& table, PlotRequest request) {
+void plot_test(const io::Table& table, const PlotRequest& request) {
   const PlotOutcome pictures = plot_history(table, request);
   io::print_warnings(pictures.warnings);
   if (!pictures.files.empty())
@@ -134,7 +134,7 @@ std::string column_help() {
     name.resize(20, ' ');
     std::string unit(c.unit);
     unit.resize(7, ' ');
-    text += "  " + name + unit + std::string(c.meaning) + "\n";
+    text.append("  ").append(name).append(unit).append(c.meaning).append("\n");
   }
   return text;
 }

@@ -19,7 +19,7 @@ using io::exact;
 using io::in_quotes;
 using io::load_material;
 using io::Location;
-using io::Material;
+using io::MaterialFile;
 using io::Problems;
 using io::shown;
 using io::suggestion;
@@ -35,8 +35,6 @@ constexpr std::array<std::string_view, 8> file_keys = {"name",    "description",
                                                        "setting", "integrator",  "stages",   "tests"};
 constexpr std::array<std::string_view, 6> integrator_keys = {"name",         "tolerance", "max_iterations",
                                                              "max_substeps", "onset",     "preferred_normal"};
-constexpr std::array<std::string_view, 3> setting_names = {"plane_strain", "plane_stress", "3d"};
-constexpr std::array<std::string_view, 3> method_names = {"accurate", "implicit", "paper"};
 constexpr std::array<std::string_view, 1> onset_names = {"closed_form"};
 constexpr std::array<std::string_view, 1> onset_keys = {"scan_degrees"};
 constexpr int most_iterations = 1'000'000'000;
@@ -163,11 +161,9 @@ class FileReader {
     if (!at) return std::nullopt;
     const std::optional<std::string> name = reader_.text(*at, longest_name);
     if (!name) return std::nullopt;
-    for (const Setting s : {Setting::plane_strain, Setting::plane_stress, Setting::three_d}) {
-      if (*name == to_string(s)) return s;
-    }
-    reader_.problem(*at, "unknown setting " + in_quotes(*name) + suggestion(*name, setting_names));
-    return std::nullopt;
+    const std::optional<Setting> setting = from_word<Setting>(*name);
+    if (!setting) reader_.problem(*at, "unknown setting " + in_quotes(*name) + suggestion(*name, word_list<Setting>));
+    return setting;
   }
 
   void read_parameters(const Scope& scope, Test& test) {
@@ -181,7 +177,7 @@ class FileReader {
     }
     const std::optional<Place> at = required(scope, "material");
     if (!at) return;
-    const std::optional<Material>& material = material_of(*at);
+    const std::optional<MaterialFile>& material = material_of(*at);
     if (!material) return;
     test.parameters = material->parameters;
     test.parameters.rve_length = length;
@@ -190,11 +186,11 @@ class FileReader {
   }
 
   /// Each material is read once, however many tests use it.
-  const std::optional<Material>& material_of(const Place& place) {
+  const std::optional<MaterialFile>& material_of(const Place& place) {
     const JsonValue* key = &place.value();
     const auto known = materials_.find(key);
     if (known != materials_.end()) return known->second;
-    std::optional<Material> material;
+    std::optional<MaterialFile> material;
     if (key->is(Kind::string)) {
       material = material_from_file(place);
     } else if (key->is(Kind::object)) {
@@ -206,7 +202,7 @@ class FileReader {
     return materials_.emplace(key, std::move(material)).first->second;
   }
 
-  std::optional<Material> material_from_file(const Place& place) {
+  std::optional<MaterialFile> material_from_file(const Place& place) {
     const std::optional<std::string> name = reader_.text(place, longest_description);
     if (!name) return std::nullopt;
     if (name->find('\0') != std::string::npos) {
@@ -217,7 +213,7 @@ class FileReader {
     const auto known = files_.find(file.string());
     if (known != files_.end()) return known->second;
     std::string error;
-    std::optional<Material> material =
+    std::optional<MaterialFile> material =
         load_material(file, file.lexically_normal().string(), reader_.limits(), problems_, error);
     if (!error.empty()) {
       reader_.problem(place, "cannot read material file " + in_quotes(file.lexically_normal().string()) + ": " + error);
@@ -255,7 +251,8 @@ class FileReader {
     const std::optional<std::string> name = reader_.text(place, longest_name);
     if (!name) return std::nullopt;
     const std::optional<Method> method = from_word<Method>(*name);
-    if (!method) reader_.problem(place, "unknown integrator " + in_quotes(*name) + suggestion(*name, method_names));
+    if (!method)
+      reader_.problem(place, "unknown integrator " + in_quotes(*name) + suggestion(*name, word_list<Method>));
     return method;
   }
 
@@ -346,8 +343,8 @@ class FileReader {
   const Limits& limits_;
   Problems problems_;
   InputReader reader_;
-  std::map<const JsonValue*, std::optional<Material>> materials_;
-  std::map<std::string, std::optional<Material>> files_;
+  std::map<const JsonValue*, std::optional<MaterialFile>> materials_;
+  std::map<std::string, std::optional<MaterialFile>> files_;
   std::map<StageKey, std::optional<std::vector<StageEntry>>> stages_;
   std::vector<UsedStages> used_stages_;  ///< of each test, in order, when there is no problem
 };

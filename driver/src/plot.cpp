@@ -28,7 +28,7 @@ struct Size {
 
 class Picture {
  public:
-  Picture(std::ostream& gp, Format format, Size size) : gp_(gp), format_(format) {
+  Picture(std::ostream& gp, Format format, Size size) : gp_(gp) {
     const int f = format == Format::png ? 2 : 1;
     gp_ << "set encoding utf8\n";
     gp_ << "set terminal " << (format == Format::png ? "pngcairo" : "svg dynamic") << " enhanced font 'DejaVu Sans,"
@@ -120,7 +120,6 @@ class Picture {
   }
 
   std::ostream& gp_;
-  Format format_;
 };
 
 /// Drawn only where they are not zero throughout.

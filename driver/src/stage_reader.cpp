@@ -5,6 +5,8 @@
 #include <limits>
 #include <string>
 
+#include "fpz/driver/history.hpp"
+
 namespace fpz::driver::detail {
 namespace {
 
@@ -119,23 +121,21 @@ class StageReader {
   }
 
   void controls(const Place& place, Stage& s, Usage& usage) {
-    static constexpr std::array<std::pair<std::string_view, Control>, 3> kinds = {
-        {{"strain_increment", Control::strain_increment}, {"strain", Control::strain}, {"stress", Control::stress}}};
     bool any = place.value().find("constraints") != nullptr;
-    for (const auto& [key, control] : kinds) {
+    for (const auto& [prescribed, key] : Words<Prescribed>::list) {
       const JsonValue* v = place.value().find(key);
       if (v == nullptr) continue;
       any = true;
       const Place at(place, *v);
       if (!reader_.object(at, "a value per component")) continue;
-      for (const JsonValue& member : v->items) add_control(Place(at, member), control, key, s, usage);
+      for (const JsonValue& member : v->items) add_control(Place(at, member), prescribed, s, usage);
     }
     if (any) return;
     reader_.problem(place,
                     "nothing is controlled; give \"strain_increment\", \"strain\", \"stress\" or \"constraints\"");
   }
 
-  void add_control(const Place& member, Control control, std::string_view key, Stage& s, Usage& usage) {
+  void add_control(const Place& member, Prescribed prescribed, Stage& s, Usage& usage) {
     const std::optional<int> c = component(member);
     const std::optional<double> value = reader_.number(member);
     if (!c) return;
@@ -144,8 +144,8 @@ class StageReader {
       reader_.problem(member, "component \"" + member.value().key + "\" is already controlled by \"" + earlier + '"');
       return;
     }
-    earlier = key;
-    if (value) s.controls.push_back({*c, control, *value});
+    earlier = to_string(prescribed);
+    if (value) s.controls.push_back({*c, prescribed, *value});
   }
 
   void constraints(const Place& place, Stage& s, Usage& usage) {
@@ -213,14 +213,15 @@ class StageReader {
     if (!reader_.object(place, "a value per quantity")) return;
     for (const JsonValue& member : place.value().items) {
       const Place at(place, member);
-      const auto known = std::find(stop_quantities.begin(), stop_quantities.end(), member.key);
-      if (known == stop_quantities.end()) {
-        reader_.problem(at,
-                        "unknown quantity " + io::in_quotes(member.key) + io::suggestion(member.key, stop_quantities));
+      const Column* column = find_column(member.key);
+      const bool known = column != nullptr && column->get != nullptr;
+      if (!known) {
+        reader_.problem(
+            at, "unknown quantity " + io::in_quotes(member.key) + io::suggestion(member.key, numeric_column_names()));
       }
       const bool damage = member.key == "D";
       const std::optional<double> value = damage ? reader_.number_between(at, 0.0, 1.0) : reader_.number(at);
-      if (known != stop_quantities.end() && value) s.stop.push_back({member.key, *value});
+      if (known && value) s.stop.push_back({member.key, *value});
     }
   }
 
@@ -231,13 +232,13 @@ class StageReader {
       if (const auto x = reader_.positive(Place(place, *v))) s.jump = JumpControl{*x};
     }
     if (s.automatic) reader_.problem(place, "jump control prescribes the step; give \"increments\", not \"automatic\"");
-    const auto is_stress = [](const ComponentControl& c) { return c.control == Control::stress; };
+    const auto is_stress = [](const ComponentControl& c) { return c.prescribed == Prescribed::stress; };
     if (!s.constraints.empty() || std::any_of(s.controls.begin(), s.controls.end(), is_stress)) {
       reader_.problem(place, "jump control scales a strain increment; it excludes \"stress\" and \"constraints\"");
     }
     // Whether a target strain is away from the strain at the begin of the stage is known only in the run.
     const auto gives_direction = [](const ComponentControl& c) {
-      return c.control == Control::strain || (c.control == Control::strain_increment && c.value != 0.0);
+      return c.prescribed == Prescribed::strain || (c.prescribed == Prescribed::strain_increment && c.value != 0.0);
     };
     if (!std::any_of(s.controls.begin(), s.controls.end(), gives_direction)) {
       reader_.problem(place, "needs a direction: a \"strain_increment\" that is not zero, or a \"strain\"");

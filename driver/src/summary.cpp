@@ -9,20 +9,10 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json material_json(const Test& test) {
-  const Parameters& p = test.parameters;
-  return {{"name", test.material_name},
-          {"young_modulus", p.young_modulus},
-          {"poisson_ratio", p.poisson_ratio},
-          {"density", p.density},
-          {"tensile_strength", p.tensile_strength},
-          {"cohesion", p.cohesion},
-          {"friction_angle_deg", p.friction_angle_deg},
-          {"dilation_angle_deg", p.dilation_angle_deg},
-          {"delta0", p.delta0},
-          {"normal_stiffness", p.normal_stiffness},
-          {"shear_stiffness", p.shear_stiffness},
-          {"rve_length", p.rve_length},
-          {"snap_back_length_mode1", snap_back_length(p, test.setting)}};
+  Json j = {{"name", test.material_name}};
+  for (const ParameterInfo<double>& p : parameter_table<double>) j[std::string(p.name)] = test.parameters.*p.member;
+  j["snap_back_length_mode1"] = snap_back_length(test.parameters, test.setting);
+  return j;
 }
 
 Json by_component(const char* prefix, const std::array<double, 6>& values) {

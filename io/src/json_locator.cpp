@@ -104,7 +104,7 @@ std::string syntax_hint(std::string_view text, std::size_t offset, const Word& w
   if (c == '\'') return "strings and keys are written in double quotes";
   if ((c == '}' || c == ']') && last_visible(text, offset) == ',') return "a comma before the closing bracket";
   if (word.text.empty()) return {};
-  const std::string hint = hint_on_word(word.text);
+  std::string hint = hint_on_word(word.text);
   if (!hint.empty()) return hint;
   if (message.find("invalid number") != std::string_view::npos) {
     return in_quotes(word.text) + " is not a JSON number (such as 12, -0.5 or 1e-3)";

@@ -39,13 +39,13 @@ std::string line_of(const Location& at, const Violation& v) {
 
 }  // namespace
 
-std::optional<Material> read_material(const InputReader& reader, const Place& place, std::string name) {
+std::optional<MaterialFile> read_material(const InputReader& reader, const Place& place, std::string name) {
   if (!reader.object(place, "the parameters of a material")) return std::nullopt;
   const std::size_t before = reader.problems().size();
   reader.known_keys(place, all_keys(), is_foreign);
   check_texts(reader, place);
 
-  Material material;
+  MaterialFile material;
   material.name = std::move(name);
   bool complete = true;
   for (std::size_t k = 0; k < material_keys.size(); ++k) {
@@ -64,8 +64,8 @@ std::optional<Material> read_material(const InputReader& reader, const Place& pl
   return material;
 }
 
-std::optional<Material> load_material(const std::filesystem::path& file, const std::string& shown_as,
-                                      const ReadLimits& limits, Problems& problems, std::string& error) {
+std::optional<MaterialFile> load_material(const std::filesystem::path& file, const std::string& shown_as,
+                                          const ReadLimits& limits, Problems& problems, std::string& error) {
   std::string text;
   if (!load_text(file, FileKind::regular, limits, text, error)) return std::nullopt;
   JsonValue root;
@@ -73,7 +73,7 @@ std::optional<Material> load_material(const std::filesystem::path& file, const s
   return read_material(InputReader(shown_as, limits, problems), Place(root), file.stem().string());
 }
 
-std::vector<std::string> check_material(const Material& material, const Parameters& parameters, Setting setting,
+std::vector<std::string> check_material(const MaterialFile& material, const Parameters& parameters, Setting setting,
                                         const std::optional<Location>& rve_length, Problems& problems) {
   const auto location = [&](const std::string& field) -> const Location* {
     for (std::size_t k = 0; k < material_keys.size(); ++k) {

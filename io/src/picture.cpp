@@ -118,7 +118,8 @@ void Picture::image(const Panel& p, const PanelPlace& at, int size, double low, 
   before_ += block + " << END\n";
   for (int j = 0; j < size; ++j) {
     for (int i = 0; i < size; ++i) {
-      const double v = cells[static_cast<std::size_t>(j * size + i)];
+      const double v =
+          cells[static_cast<std::size_t>(j) * static_cast<std::size_t>(size) + static_cast<std::size_t>(i)];
       before_ += at_cell(i) + " " + at_cell(j) + " " +
                  (std::isnan(v) ? "9" : gnuplot_number(std::round(v * 1e4) * 1e-4)) + "\n";
     }

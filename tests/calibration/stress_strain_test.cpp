@@ -13,7 +13,7 @@ namespace fpz::calibration {
 namespace {
 
 using driver::ComponentControl;
-using driver::Control;
+using driver::Prescribed;
 using driver::Stage;
 
 constexpr int xx = 0, yy = 1, zz = 2, xy = 3;
@@ -38,18 +38,18 @@ StressStrainTest make(const Parameters& p, std::vector<Stage> stages, Setting se
 
 /// Uniaxial strain up to an opening of about 3 delta0.
 StressStrainTest opening(const Parameters& p, int increments = 40) {
-  return make(p, {stage(increments, {{xx, Control::strain, 3.0 * p.delta0 / p.rve_length}})});
+  return make(p, {stage(increments, {{xx, Prescribed::strain, 3.0 * p.delta0 / p.rve_length}})});
 }
 
 /// Tension with free sides, partial unloading, then shear at a constant side stress.
 StressStrainTest mixed_control(const Parameters& p, Setting setting) {
   const double e = 2.5 * p.delta0 / p.rve_length;
   return make(p,
-              {stage(30, {{xx, Control::strain, e}, {yy, Control::stress, 0.0}}),
-               stage(10, {{xx, Control::strain, 0.9 * e}, {yy, Control::stress, 0.0}}),
-               stage(20, {{yy, Control::stress, -0.2 * p.tensile_strength},
-                          {xx, Control::strain_increment, 0.02 * e},
-                          {xy, Control::strain_increment, 0.03 * e}})},
+              {stage(30, {{xx, Prescribed::strain, e}, {yy, Prescribed::stress, 0.0}}),
+               stage(10, {{xx, Prescribed::strain, 0.9 * e}, {yy, Prescribed::stress, 0.0}}),
+               stage(20, {{yy, Prescribed::stress, -0.2 * p.tensile_strength},
+                          {xx, Prescribed::strain_increment, 0.02 * e},
+                          {xy, Prescribed::strain_increment, 0.03 * e}})},
               setting);
 }
 
@@ -197,7 +197,7 @@ TEST(StressStrain, DerivativesAtAStrainThatIsAResponse) {
 TEST(StressStrain, ConstraintsCarryDerivatives) {
   // Confined out-of-plane stress: a linear constraint whose coefficients contain Poisson's ratio in plane strain.
   const Parameters p = test::table1(4e-3);
-  Stage s = stage(30, {{xx, Control::strain, 2.0 * p.delta0 / p.rve_length}});
+  Stage s = stage(30, {{xx, Prescribed::strain, 2.0 * p.delta0 / p.rve_length}});
   driver::LinearConstraint c;
   c.stress[zz] = 1.0;
   c.stress[yy] = 0.5;
@@ -226,7 +226,7 @@ TEST(StressStrain, Failures) {
   snap.points = {0.01};  // before the snap-back all is well
   EXPECT_EQ(why(snap, p), "");
 
-  StressStrainTest load = make(p, {stage(20, {{xx, Control::stress, 2.0 * p.tensile_strength}})});
+  StressStrainTest load = make(p, {stage(20, {{xx, Prescribed::stress, 2.0 * p.tensile_strength}})});
   load.points = {0.9};
   EXPECT_NE(why(load, p).find("load limit"), std::string::npos);
 

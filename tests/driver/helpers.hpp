@@ -36,7 +36,7 @@ inline Test four_stages(int factor) {
   const double ds = 15e-7 * factor;
   const auto add = [&](int increments, double x, double s) {
     test.stages.push_back(
-        stage(increments / factor, {{xx, Control::strain_increment, x}, {xy, Control::strain_increment, s}}));
+        stage(increments / factor, {{xx, Prescribed::strain_increment, x}, {xy, Prescribed::strain_increment, s}}));
   };
   add(12000, dx, 0.0);
   add(2000, dx, ds);

@@ -52,7 +52,7 @@ TEST(Plot, MissingGnuplotIsAWarning) {
 TEST(Plot, AnUncrackedHistoryHasPicturesToo) {
   const TemporaryFolder folder;
   PathTest test = johnstone_test();
-  test.stages = {stage(2, {{0, Control::strain, 1e-5}})};
+  test.stages = {stage(2, {{0, Prescribed::strain, 1e-5}})};
   const PlotOutcome outcome = plot_history(io::parse_csv(to_csv(run_test(test).history), "h"), request(folder.path()));
   if (outcome.files.empty()) GTEST_SKIP() << outcome.warnings.at(0);
   EXPECT_TRUE(outcome.warnings.empty()) << outcome.warnings.at(0);

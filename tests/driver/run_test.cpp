@@ -70,8 +70,8 @@ TEST(FourStage, SummaryTellsOnsetAndEnergies) {
 /// Lateral stress is kept at zero while the axial strain is prescribed.
 Result uniaxial_stress(Setting setting, double strain, int increments) {
   PathTest test = johnstone_test(setting);
-  std::vector<ComponentControl> controls = {{xx, Control::strain, strain}, {yy, Control::stress, 0.0}};
-  if (setting == Setting::three_d) controls.push_back({zz, Control::stress, 0.0});
+  std::vector<ComponentControl> controls = {{xx, Prescribed::strain, strain}, {yy, Prescribed::stress, 0.0}};
+  if (setting == Setting::three_d) controls.push_back({zz, Prescribed::stress, 0.0});
   test.stages = {stage(increments, controls)};
   return run_test(test);
 }
@@ -101,7 +101,7 @@ TEST(MixedControl, LateralStressStaysZeroAfterCracking) {
 
 TEST(MixedControl, PlaneStressModuli) {
   PathTest test = johnstone_test(Setting::plane_stress);
-  test.stages = {stage(1, {{xx, Control::strain, 1e-4}})};
+  test.stages = {stage(1, {{xx, Prescribed::strain, 1e-4}})};
   const Row r = run_test(test).history.back();
   EXPECT_NEAR(r.stress[xx], 0.4e9 / (1 - 0.0625) * 1e-4, 1e-6);
   EXPECT_NEAR(r.stress[yy], 0.25 * r.stress[xx], 1e-6);
@@ -109,7 +109,7 @@ TEST(MixedControl, PlaneStressModuli) {
 
 TEST(MixedControl, LinearConstraintTiesComponents) {
   PathTest test = johnstone_test();
-  Stage s = stage(10, {{xx, Control::strain, 5e-4}});
+  Stage s = stage(10, {{xx, Prescribed::strain, 5e-4}});
   LinearConstraint equal_stress;  // sig_xx - sig_yy = 0
   equal_stress.stress[xx] = 1.0;
   equal_stress.stress[yy] = -1.0;
@@ -124,7 +124,7 @@ TEST(MixedControl, LinearConstraintTiesComponents) {
 
 TEST(MixedControl, TooManyConstraintsAreRefused) {
   PathTest test = johnstone_test();
-  Stage s = stage(1, {{xx, Control::strain, 1e-4}});
+  Stage s = stage(1, {{xx, Prescribed::strain, 1e-4}});
   LinearConstraint c;
   c.strain[xx] = 1.0;
   s.constraints = {c};
@@ -134,7 +134,7 @@ TEST(MixedControl, TooManyConstraintsAreRefused) {
 
 TEST(MixedControl, StressControlPastThePeakStopsAtTheLoadLimit) {
   PathTest test = johnstone_test();
-  test.stages = {stage(100, {{xx, Control::stress, 1e6}})};
+  test.stages = {stage(100, {{xx, Prescribed::stress, 1e6}})};
   const Result result = run_test(test);
   EXPECT_EQ(result.status, "load_limit");
   EXPECT_THAT(result.message, HasSubstr("load limit"));
@@ -145,7 +145,7 @@ TEST(MixedControl, StressControlPastThePeakStopsAtTheLoadLimit) {
 
 TEST(StopCondition, EndsTheStageAtTheValue) {
   PathTest test = johnstone_test();
-  test.stages = {stage(100, {{xx, Control::strain, 4e-3}}), stage(10, {{xx, Control::strain, 0.0}})};
+  test.stages = {stage(100, {{xx, Prescribed::strain, 4e-3}}), stage(10, {{xx, Prescribed::strain, 0.0}})};
   test.stages[0].stop = {{"D", 0.25}};
   test.stages[1].stop = {{"sig_xx", 1e5}};
   const Result result = run_test(test);
@@ -160,14 +160,14 @@ TEST(StopCondition, EndsTheStageAtTheValue) {
 
 TEST(StopCondition, StartingAtTheValueDoesNotCount) {
   PathTest test = johnstone_test();
-  test.stages = {stage(10, {{xx, Control::strain, 1e-3}})};
+  test.stages = {stage(10, {{xx, Prescribed::strain, 1e-3}})};
   test.stages[0].stop = {{"sig_xx", 0.0}};
   EXPECT_EQ(run_test(test).history.size(), 11u);
 }
 
 TEST(SnapBack, MessageNamesTheWayOut) {
   PathTest test = johnstone_test(Setting::plane_strain, 20e-3);
-  test.stages = {stage(100, {{xx, Control::strain, 4e-3}})};
+  test.stages = {stage(100, {{xx, Prescribed::strain, 4e-3}})};
   const Result result = run_test(test);
   EXPECT_EQ(result.status, "snap_back");
   for (const char* part : {"\"test\"", "stage 1", "increment 32", "H = 0.02", "0.0144", "jump_control"}) {
@@ -179,7 +179,7 @@ TEST(SnapBack, MessageNamesTheWayOut) {
 
 TEST(JumpControl, GoesThroughSnapBack) {
   PathTest test = johnstone_test(Setting::plane_strain, 20e-3);
-  Stage s = stage(400, {{xx, Control::strain, 4e-3}});
+  Stage s = stage(400, {{xx, Prescribed::strain, 4e-3}});
   s.jump = JumpControl{18e-6 * 5 / 400};
   test.stages = {s};
   const Result result = run_test(test);
@@ -197,7 +197,7 @@ TEST(JumpControl, GoesThroughSnapBack) {
 
 TEST(AutomaticSteps, FollowTheResponseWithinTheirTolerance) {
   PathTest test = johnstone_test();
-  Stage s = stage(1, {{xx, Control::strain, 4e-3}});
+  Stage s = stage(1, {{xx, Prescribed::strain, 4e-3}});
   s.automatic = true;
   s.step_tolerance = 1e-3;
   test.stages = {s};
@@ -222,7 +222,7 @@ TEST(Halving, GivesOneRowPerIncrement) {
 
 TEST(Observer, HearsOfEveryRow) {
   PathTest test = johnstone_test();
-  test.stages = {stage(7, {{xx, Control::strain, 1e-4}})};
+  test.stages = {stage(7, {{xx, Prescribed::strain, 1e-4}})};
   int calls = 0;
   (void)run_test(test, [&](const Progress& p) {
     ++calls;

@@ -46,7 +46,7 @@ class ParameterReader {
     const JsonValue* material = root_.value().find("material");
     if (material == nullptr) return;
     const Place at(root_, *material);
-    std::optional<io::Material> base;
+    std::optional<io::MaterialFile> base;
     if (material->is(Kind::string)) {
       const auto name = c_.reader.text(at, longest_text);
       if (!name || name->find('\0') != std::string::npos) return;

@@ -17,7 +17,7 @@ enum class Method : std::uint8_t {
 template <>
 struct Words<Method> {
   static constexpr Word<Method> list[] = {
-      {Method::paper, "paper"}, {Method::implicit, "implicit"}, {Method::accurate, "accurate"}};
+      {Method::accurate, "accurate"}, {Method::implicit, "implicit"}, {Method::paper, "paper"}};
 };
 
 struct Options {

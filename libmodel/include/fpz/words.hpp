@@ -2,6 +2,8 @@
 // that reads or writes words goes through here. A word belongs to its value by name, never by position.
 #pragma once
 
+#include <array>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -41,7 +43,15 @@ template <Worded E>
   return std::nullopt;
 }
 
-/// All words in their order, for messages: "a, b or c".
+/// All words in their order.
+template <Worded E>
+inline constexpr auto word_list = [] {
+  std::array<std::string_view, std::size(Words<E>::list)> words;
+  for (std::size_t k = 0; k < words.size(); ++k) words[k] = Words<E>::list[k].text;
+  return words;
+}();
+
+/// The same for messages: "a, b or c".
 template <Worded E>
 [[nodiscard]] std::string all_words() {
   std::string text;

@@ -15,7 +15,7 @@ constexpr std::array<std::string_view, 17> root_keys = {
 constexpr std::array<std::string_view, 2> settings = {"plane_strain", "plane_stress"};
 
 /// The material, and the file's content in place of its name.
-std::optional<io::Material> read_material_of(const InputReader& r, JsonValue& root) {
+std::optional<io::MaterialFile> read_material_of(const InputReader& r, JsonValue& root) {
   const Place top(root);
   const JsonValue* given = r.required(top, "material");
   if (given == nullptr) return std::nullopt;

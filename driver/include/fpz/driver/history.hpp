@@ -33,19 +33,37 @@ struct Row {
 
 using History = std::vector<Row>;
 
+/// What a column holds; decides how two histories are compared.
+enum class Quantity {
+  count,   ///< counters, time and text
+  strain,  ///< the components of a tensor
+  stress,  ///< or traction
+  jump,
+  fraction,  ///< of order one: damage, components of unit vectors
+  energy
+};
+
 /// A column of history.csv. `get` is null for the one column of text, `status`.
 struct Column {
   std::string_view name;
   std::string_view unit;
   std::string_view meaning;
+  Quantity quantity;
   double (*get)(const Row&);
+  std::string_view alias = {};  ///< the name in some reference files
 };
 
 /// All columns in the order of the file.
 [[nodiscard]] std::span<const Column> columns();
 
+/// The names of those that hold numbers.
+[[nodiscard]] std::span<const std::string_view> numeric_column_names();
+
 /// The column of that name, or null.
 [[nodiscard]] const Column* find_column(std::string_view name);
+
+/// The same, by its name or its alias.
+[[nodiscard]] const Column* find_column_or_alias(std::string_view name);
 
 /// The whole file as text: header line, then one line per row with 17 significant digits.
 [[nodiscard]] std::string to_csv(const History& history);

@@ -18,30 +18,31 @@ namespace fpz::driver {
 /// Tensor components in the order of history.csv.
 inline constexpr std::array<std::string_view, 6> component_names = {"xx", "yy", "zz", "xy", "xz", "yz"};
 
-/// What a stop condition can name: the columns of history.csv that are numbers.
-// clang-format off
-inline constexpr std::array<std::string_view, 32> stop_quantities = {
-    "stage", "increment", "time",
-    "eps_xx", "eps_yy", "eps_zz", "eps_xy", "eps_xz", "eps_yz",
-    "sig_xx", "sig_yy", "sig_zz", "sig_xy", "sig_xz", "sig_yz",
-    "cracked", "n_x", "n_y", "n_z",
-    "u_n", "u_s1", "u_s2", "up_n", "up_s", "t_n", "t_s1", "t_s2",
-    "D", "energy_stored", "energy_dissipated", "iterations", "energy_work"};
-// clang-format on
-
 using io::InputError;
 
-/// How one component is controlled during a stage.
-enum class Control {
+/// What mixed control prescribes of one component during a stage.
+enum class Prescribed {
   strain_increment,  ///< value is the strain increment per increment of the stage (with automatic stepping: of the
                      ///< whole stage divided by `increments`)
   strain,            ///< value is the strain at the end of the stage, approached linearly
   stress             ///< value is the stress at the end of the stage, approached linearly, Pa
 };
 
+}  // namespace fpz::driver
+
+/// The keys of a stage.
+template <>
+struct fpz::Words<fpz::driver::Prescribed> {
+  static constexpr Word<driver::Prescribed> list[] = {{driver::Prescribed::strain_increment, "strain_increment"},
+                                                      {driver::Prescribed::strain, "strain"},
+                                                      {driver::Prescribed::stress, "stress"}};
+};
+
+namespace fpz::driver {
+
 struct ComponentControl {
   int component = 0;  ///< index into component_names
-  Control control = Control::strain_increment;
+  Prescribed prescribed = Prescribed::strain_increment;
   double value = 0.0;
 };
 
@@ -56,7 +57,7 @@ struct LinearConstraint {
 
 /// The stage ends when `quantity` (a column name of history.csv) reaches `value` from either side.
 struct StopCondition {
-  std::string quantity;  ///< one of stop_quantities
+  std::string quantity;  ///< a column of numbers
   double value = 0.0;
 };
 

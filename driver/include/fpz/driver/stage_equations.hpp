@@ -105,9 +105,9 @@ class StageEquations {
         throw InputError("component " + std::string(component_names[at(c.component)]) + " cannot be controlled in 2-D");
       Equation<Dim, T>& e = equations_[at(k)];
       taken_[at(k)] = true;
-      if (c.control == Control::strain_increment) e.to = e.from + c.value * stage.increments;
-      if (c.control == Control::strain) e.to = T(c.value);
-      if (c.control == Control::stress) {
+      if (c.prescribed == Prescribed::strain_increment) e.to = e.from + c.value * stage.increments;
+      if (c.prescribed == Prescribed::strain) e.to = T(c.value);
+      if (c.prescribed == Prescribed::stress) {
         e.strain[k] = T(0.0);
         e.stress[k] = T(1.0);
         e.from = begin.stress[k];

@@ -25,22 +25,25 @@ struct Location {
   std::string path;
 };
 
-struct Material {
+/// What a material file states, with the places of its values. (fpz::Material is what the model makes of parameters.)
+struct MaterialFile {
   Parameters parameters;  ///< rve_length is 0
   std::string name;
   std::array<Location, material_parameter_count> locations;  ///< in the order of material_keys
 };
 
 /// The material at `place`; nothing when a value is missing or of a wrong type. `name` is used when it has none.
-[[nodiscard]] std::optional<Material> read_material(const InputReader& reader, const Place& place, std::string name);
+[[nodiscard]] std::optional<MaterialFile> read_material(const InputReader& reader, const Place& place,
+                                                        std::string name);
 
 /// The material in a file, which messages call `shown_as`.
-[[nodiscard]] std::optional<Material> load_material(const std::filesystem::path& file, const std::string& shown_as,
-                                                    const ReadLimits& limits, Problems& problems, std::string& error);
+[[nodiscard]] std::optional<MaterialFile> load_material(const std::filesystem::path& file, const std::string& shown_as,
+                                                        const ReadLimits& limits, Problems& problems,
+                                                        std::string& error);
 
 /// Applies fpz::validate(). Errors become problems at the places of the values, warnings are returned. Without
 /// `rve_length` the constraints that do not need it are checked.
-std::vector<std::string> check_material(const Material& material, const Parameters& parameters, Setting setting,
+std::vector<std::string> check_material(const MaterialFile& material, const Parameters& parameters, Setting setting,
                                         const std::optional<Location>& rve_length, Problems& problems);
 
 /// Reads and validates a material file (keys as in data/materials). `rve_length` is left at 0. Without a key "name" the

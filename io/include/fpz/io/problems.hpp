@@ -25,7 +25,7 @@ namespace fpz::io {
 /// `; did you mean "a"? (valid: a, b, c)`, without the question when no name is similar.
 [[nodiscard]] std::string suggestion(std::string_view name, std::span<const std::string_view> valid);
 
-/// Problems of a path file and of the material files that it names.
+/// Problems of an input file and of the files that it names.
 class Problems {
  public:
   explicit Problems(std::size_t limit) : limit_(limit) {}
