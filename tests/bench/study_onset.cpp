@@ -49,7 +49,7 @@ double angle_error(const Sample<Dim>& sample, const Vec<double, Dim>& normal) {
     axis << plane.eigenvectors().col(1), 0.0;
   }
   const test::Vector3 conjugate = 2.0 * axis.dot(sample.normal) * axis - sample.normal;
-  return std::min(n.cross(sample.normal).norm(), n.cross(conjugate).norm()) / degree;
+  return std::min(n.cross(sample.normal).norm(), n.cross(conjugate).norm()) / fpz::degree;
 }
 
 /// Relative error of the load factor at which the search first sees F >= 0.

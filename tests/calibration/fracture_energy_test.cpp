@@ -54,8 +54,8 @@ FractureEnergyTest direction(double angle_deg, std::optional<double> end = {}, s
 
 /// Mode II at zero normal traction: the scaled traction stays at (0, tau0), so everything is an exponential.
 double closed_form_shear(const Parameters& p, std::optional<double> end = {}) {
-  const double tan_phi = std::tan(p.friction_angle_deg * degree);
-  const double tan_psi = std::tan(p.dilation_angle_deg * degree);
+  const double tan_phi = std::tan(p.friction_angle_deg * fpz::degree);
+  const double tan_psi = std::tan(p.dilation_angle_deg * fpz::degree);
   const double apex = p.cohesion - p.tensile_strength * tan_phi;
   const double tau0 = std::sqrt(p.cohesion * p.cohesion - apex * apex);
   const double m = tan_psi * p.cohesion / tau0;
@@ -67,7 +67,7 @@ double closed_form_shear(const Parameters& p, std::optional<double> end = {}) {
 double library_work(const Parameters& p, double angle_deg, double length, std::optional<double> onset_angle) {
   const CohesiveLaw<double> law = make_cohesive_law(p);
   Vec<double, 2> u;
-  u << std::cos(angle_deg * degree), std::sin(angle_deg * degree);
+  u << std::cos(angle_deg * fpz::degree), std::sin(angle_deg * fpz::degree);
   CohesiveState<double, 2> z = cracked_at<double, 2>(law, *onset_traction(law, u, onset_angle));
   Options options;
   options.tolerance = 1e-11;
@@ -80,7 +80,7 @@ double library_work(const Parameters& p, double angle_deg, double length, std::o
 double summed_work(const Parameters& p, double angle_deg, double length, std::optional<double> onset_angle) {
   const CohesiveLaw<double> law = make_cohesive_law(p);
   Vec<double, 2> u;
-  u << std::cos(angle_deg * degree), std::sin(angle_deg * degree);
+  u << std::cos(angle_deg * fpz::degree), std::sin(angle_deg * fpz::degree);
   CohesiveState<double, 2> z = cracked_at<double, 2>(law, *onset_traction(law, u, onset_angle));
   Options options;
   options.tolerance = 1e-9;
@@ -199,7 +199,7 @@ TEST(FractureEnergy, DerivativeWhereTheOnsetIsAlreadySteady) {
     n << 1.0, 0.0;
     const Vec<double, 2> t = *onset_traction(law, n, mid);
     const double flow = law.tan_psi * (law.cohesion - t[0] * law.tan_psi);
-    (std::tan(angle * degree) * flow > t[1] ? lo : hi) = mid;
+    (std::tan(angle * fpz::degree) * flow > t[1] ? lo : hi) = mid;
   }
   const FractureEnergyTest steady = direction(angle, {}, lo);
   expect_derivatives([&](const Parameters& q, bool d) { return predict(steady, q, d); }, p, 1e-3, 1e-7);

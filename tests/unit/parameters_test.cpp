@@ -30,17 +30,17 @@ bool contains(const std::string& text, const std::string& part) { return text.fi
 
 /// Largest F over a fine scan of plane angles, for uniaxial stress s; `angle_deg` receives where.
 double scan(const Parameters& p, double s, double* angle_deg = nullptr) {
-  const double t = std::tan(p.friction_angle_deg * degree);
+  const double t = std::tan(p.friction_angle_deg * fpz::degree);
   const double apex = p.cohesion - p.tensile_strength * t;
   double best = -std::numeric_limits<double>::infinity();
   for (int k = 0; k <= 9000; ++k) {
-    const double theta = 0.01 * k * degree;
+    const double theta = 0.01 * k * fpz::degree;
     const double tn = s * std::cos(theta) * std::cos(theta);
     const double ts = s * std::cos(theta) * std::sin(theta);
     const double f = std::sqrt(ts * ts + apex * apex) - (p.cohesion - tn * t);
     if (f > best) {
       best = f;
-      if (angle_deg != nullptr) *angle_deg = theta / degree;
+      if (angle_deg != nullptr) *angle_deg = theta / fpz::degree;
     }
   }
   return best;
@@ -135,7 +135,7 @@ TEST(Validate, ErrorsOfSingleValuesAndOfPairsAreReportedTogether) {
 
 TEST(Validate, CohesionAtTheBoundIsRejectedAndJustAboveAccepted) {
   Parameters p = table1();
-  const double bound = p.tensile_strength * std::tan(p.friction_angle_deg * degree);
+  const double bound = p.tensile_strength * std::tan(p.friction_angle_deg * fpz::degree);
   p.cohesion = bound;
   EXPECT_FALSE(validate(p, Setting::plane_strain).ok());
   p.cohesion = bound * (1.0 + 1e-12);
@@ -225,7 +225,7 @@ TEST(UniaxialTensileStrength, AgreesWithAScanOverPlanes) {
     for (const double ratio : {1.001, 1.1, 1.5, 2.0, 5.0}) {  // c0 over its lower bound
       Parameters p = table1();
       p.friction_angle_deg = phi;
-      p.cohesion = ratio * p.tensile_strength * std::tan(phi * degree);
+      p.cohesion = ratio * p.tensile_strength * std::tan(phi * fpz::degree);
       const double s = uniaxial_tensile_strength(p);
       EXPECT_LE(s, p.tensile_strength);
       // The scan misses the critical angle by up to 0.005 degrees, an error of second order in F.
@@ -236,7 +236,7 @@ TEST(UniaxialTensileStrength, AgreesWithAScanOverPlanes) {
 
 TEST(UniaxialTensileStrength, IsContinuousWhereTheModeChanges) {
   Parameters p = table2();
-  const double t = std::tan(p.friction_angle_deg * degree);
+  const double t = std::tan(p.friction_angle_deg * fpz::degree);
   const double threshold = p.tensile_strength * (t + 0.5 / t);
   p.cohesion = threshold * (1.0 + 1e-9);
   EXPECT_EQ(uniaxial_tensile_strength(p), p.tensile_strength);

@@ -62,7 +62,7 @@ void expect_scan_converges(double finest) {
     for (const double resolution : {4.0, 1.0, finest}) {
       const Plane<double, Dim> plane = scan_planes<Dim>(m, s, resolution);
       // |d2F/dtheta2| <= 4 r tan(phi) + (4 r)^2/A at most; 2 |s| stands for r. 3-D: two angles.
-      const double angle = 0.5 * resolution * degree * (Dim == 2 ? 1.0 : 1.5);
+      const double angle = 0.5 * resolution * fpz::degree * (Dim == 2 ? 1.0 : 1.5);
       const double curvature = 8.0 * s.norm() + 16.0 * s.squaredNorm() / m.law.apex;
       EXPECT_LE(plane.failure_value, exact + 1e-9 * m.law.cohesion);
       EXPECT_GE(plane.failure_value, exact - 0.5 * curvature * angle * angle);
@@ -95,7 +95,7 @@ State<double, Dim> crack_in_uniaxial_tension(const Parameters& p, Setting settin
 template <int Dim>
 double onset_stress(const Parameters& p, Setting setting, double* angle_deg) {
   const State<double, Dim> s = crack_in_uniaxial_tension<Dim>(p, setting, Options{});
-  *angle_deg = std::acos(std::min(1.0, std::abs(s.frame(0, 0)))) / degree;
+  *angle_deg = std::acos(std::min(1.0, std::abs(s.frame(0, 0)))) / fpz::degree;
   // The offset remembers the traction at onset: sigma = t.t/t_n of a uniaxial stress.
   const double tn = p.normal_stiffness * s.crack.offset[0];
   double ts2 = 0.0;
