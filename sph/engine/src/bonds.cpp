@@ -69,7 +69,6 @@ NeighbourLists find_neighbours(const Fields<Dim>& position, std::size_t count, d
 
 template <int Dim>
 void separate(NeighbourLists& lists, const std::vector<Cut<Dim>>& cuts, const Fields<Dim>& start) {
-  static_assert(Dim == 2, "the crossing of cut.hpp");
   if (cuts.empty()) return;
   const auto point = [&start](std::size_t i) { return Vec<double, Dim>(start[0][i], start[1][i]); };
   for (std::size_t i = 0; i < lists.size(); ++i) {

@@ -2,6 +2,7 @@
 // particle runs over its own neighbour columns in their order and never crosses lanes, so neither the width of the
 // vectors nor the number of threads changes a bit of the result (contraction to fused operations is switched off).
 #include "fpz/sph/kernel.hpp"
+#include "fpz/sph/lanes.hpp"
 #include "plane.hpp"
 #include "view.hpp"
 
@@ -11,7 +12,7 @@ namespace fpz::sph::detail {
 namespace FPZ_SPH_ISA {
 namespace {
 
-constexpr int n = 8;
+constexpr auto n = static_cast<int>(lanes);
 using V = View<2>;
 
 /// Sum over lanes in their order.
@@ -21,6 +22,12 @@ FPZ_LANE double lane_sum(const double (&a)[n]) {
   return s;
 }
 
+/// Whether the elastic stress is the particle's: it never cracks, or certainly not now. All others go to the library.
+FPZ_LANE bool stays_elastic(const V& v, Index i, const Symmetric& s) {
+  return (v.kind[i] == kind::elastic) | ((v.kind[i] == kind::intact) & intact(v.sin_phi, v.strength, v.apex, s));
+}
+
+/// Positions at n + 1 (eq 31) and the velocities there (eq 29: extrapolated, for the viscosity only).
 void drift(const V& v, Index first, Index last) {
   for (int c = 0; c < 2; ++c) {
     double* __restrict x = v.position[c];
@@ -34,7 +41,8 @@ void drift(const V& v, Index first, Index last) {
   }
 }
 
-/// Sums over the neighbours of (u_j - u_i) times the bond's weight: the gradient of u before correction, times V_i.
+/// Sums over the neighbours of (u_j - u_i) times the bond's weight: the gradient of u in eq 21 before the correction of
+/// eq 17, times V_i.
 FPZ_LANE void difference_sums(const V& v, Index b, const double* ux, const double* uy, double (&xx)[n], double (&xy)[n],
                               double (&yx)[n], double (&yy)[n]) {
   const Index o = b * n;
@@ -54,6 +62,8 @@ FPZ_LANE void difference_sums(const V& v, Index b, const double* ux, const doubl
   }
 }
 
+/// eq 21 in the undeformed body: velocity gradient (corrected, eq 17) -> F, its rotation and stretch, elastic stress
+/// and flux of the force; flags the particles that the library must update.
 void gradient_reference(const V& v, Index first, Index last) {
   for (Index b = first; b < last; ++b) {
     const Index o = b * n;
@@ -79,7 +89,7 @@ void gradient_reference(const V& v, Index first, Index last) {
       v.strain[1][i] = p.strain.yy;
       v.strain[2][i] = p.strain.xy;
       const Symmetric s = elastic_stress(v.lambda, v.mu, p.strain);
-      const bool take = (v.kind[i] == 2.0) | ((v.kind[i] == 0.0) & intact(v.sin_phi, v.strength, v.apex, s));
+      const bool take = stays_elastic(v, i, s);
       v.stress[0][i] = take ? s.xx : v.stress[0][i];
       v.stress[1][i] = take ? s.yy : v.stress[1][i];
       v.stress[2][i] = take ? s.xy : v.stress[2][i];
@@ -101,7 +111,7 @@ FPZ_LANE void account(double* total, double* next, Index b, const double (&befor
   next[b] = lane_sum(after);
 }
 
-/// Velocity to n + 1/2 from the force at n, with gravity and local damping.
+/// Velocity to n + 1/2 from the force at n (eq 23 at the start, then eq 26), with gravity and local damping.
 FPZ_LANE void kick(const V& v, Index b, double (&fx)[n], double (&fy)[n]) {
   const Index o = b * n;
   double slow[n], before[n], after[n];
@@ -134,6 +144,7 @@ FPZ_LANE void kick(const V& v, Index b, double (&fx)[n], double (&fy)[n]) {
   if (v.damped) account(v.damping_work, v.damping_next, b, before, after);
 }
 
+/// eq 20: internal force, sum V_i V_j (sigma_i L_i + sigma_j L_j) grad W_ij in the undeformed body; then kick().
 void force_reference(const V& v, Index first, Index last) {
   const double *txx = v.flux[0], *txy = v.flux[1], *tyx = v.flux[2], *tyy = v.flux[3];
   for (Index b = first; b < last; ++b) {
@@ -153,7 +164,8 @@ void force_reference(const V& v, Index first, Index last) {
   }
 }
 
-void gradient_control(const V& v, Index first, Index last) {
+/// Gradient of the velocities at n: what the zero-energy control leaves alone.
+void gradient_zero_energy(const V& v, Index first, Index last) {
   for (Index b = first; b < last; ++b) {
     const Index o = b * n;
     double xx[n] = {}, xy[n] = {}, yx[n] = {}, yy[n] = {};
@@ -162,21 +174,22 @@ void gradient_control(const V& v, Index first, Index last) {
       const Index i = o + l;
       const Symmetric c = {v.correction[0][i], v.correction[1][i], v.correction[2][i]};
       const double inverse = 1.0 / v.volume[i];
-      v.rate[0][i] = inverse * (xx[l] * c.xx + xy[l] * c.xy);
-      v.rate[1][i] = inverse * (xx[l] * c.xy + xy[l] * c.yy);
-      v.rate[2][i] = inverse * (yx[l] * c.xx + yy[l] * c.xy);
-      v.rate[3][i] = inverse * (yx[l] * c.xy + yy[l] * c.yy);
+      v.zero_energy_rate[0][i] = inverse * (xx[l] * c.xx + xy[l] * c.xy);
+      v.zero_energy_rate[1][i] = inverse * (xx[l] * c.xy + xy[l] * c.yy);
+      v.zero_energy_rate[2][i] = inverse * (yx[l] * c.xx + yy[l] * c.xy);
+      v.zero_energy_rate[3][i] = inverse * (yx[l] * c.xy + yy[l] * c.yy);
     }
   }
 }
 
-/// Along the present line of the bond, so that the force of a pair makes no moment; weighted with the kernel of the
-/// undeformed body.
+/// Opposes the relative velocities that those gradients do not explain. Along the present line of the bond, so that the
+/// force of a pair makes no moment; weighted with the kernel of the undeformed body.
 template <Kernel K>
-void force_control(const V& v, Index first, Index last) {
+void force_zero_energy(const V& v, Index first, Index last) {
   const double *sx = v.start[0], *sy = v.start[1], *x = v.position[0], *y = v.position[1];
   const double *ux = v.predicted[0], *uy = v.predicted[1], *volume = v.volume;
-  const double *axx = v.rate[0], *axy = v.rate[1], *ayx = v.rate[2], *ayy = v.rate[3];
+  const double *axx = v.zero_energy_rate[0], *axy = v.zero_energy_rate[1];
+  const double *ayx = v.zero_energy_rate[2], *ayy = v.zero_energy_rate[3];
   const double core = 0.01 * v.smoothing * v.smoothing;
   for (Index b = first; b < last; ++b) {
     const Index o = b * n;
@@ -193,15 +206,15 @@ void force_control(const V& v, Index first, Index last) {
         const double slope = v.slope_norm * (volume[i] * volume[j[l]]) * kernel_slope<K>(q);
         const double ex = ux[j[l]] - ux[i] - 0.5 * ((axx[i] + axx[j[l]]) * rx + (axy[i] + axy[j[l]]) * ry);
         const double ey = uy[j[l]] - uy[i] - 0.5 * ((ayx[i] + ayx[j[l]]) * rx + (ayy[i] + ayy[j[l]]) * ry);
-        const double pull = v.control_viscosity * slope * (ex * dx + ey * dy) / (dx * dx + dy * dy + core);
+        const double pull = v.zero_energy_viscosity * slope * (ex * dx + ey * dy) / (dx * dx + dy * dy + core);
         fx[l] += pull * dx;
         fy[l] += pull * dy;
       }
     }
     FPZ_LANES {
       const Index i = o + l;
-      v.control[0][i] = fx[l];
-      v.control[1][i] = fy[l];
+      v.zero_energy_force[0][i] = fx[l];
+      v.zero_energy_force[1][i] = fy[l];
       const double ax = fx[l] * v.inverse_mass[i];
       const double ay = fy[l] * v.inverse_mass[i];
       v.acceleration[0][i] += ax;
@@ -212,6 +225,8 @@ void force_control(const V& v, Index first, Index last) {
   }
 }
 
+/// Kernel gradients of the present positions, L_i of eq 18, velocity gradient of eq 21 -> density (eq 19, 22, 25: in
+/// one step, exact for a linear motion), rotated stress (eq 21, 24, 27) and flux; flags what the library must update.
 template <Kernel K, bool PaperMomentum>
 void gradient_updated(const V& v, Index first, Index last) {
   const double *x = v.position[0], *y = v.position[1], *ux = v.velocity[0], *uy = v.velocity[1];
@@ -277,7 +292,7 @@ void gradient_updated(const V& v, Index first, Index last) {
       const Symmetric d = elastic_stress(v.lambda, v.mu, p.strain);
       const Symmetric old = {v.stress[0][i], v.stress[1][i], v.stress[2][i]};
       const Symmetric s = rotated(p.cosine, p.sine, {old.xx + d.xx, old.yy + d.yy, old.xy + d.xy});
-      const bool take = (v.kind[i] == 2.0) | ((v.kind[i] == 0.0) & intact(v.sin_phi, v.strength, v.apex, s));
+      const bool take = stays_elastic(v, i, s);
       v.stress[0][i] = take ? s.xx : old.xx;
       v.stress[1][i] = take ? s.yy : old.yy;
       v.stress[2][i] = take ? s.xy : old.xy;
@@ -297,6 +312,7 @@ void gradient_updated(const V& v, Index first, Index last) {
   }
 }
 
+/// eq 20 with artificial viscosity and stress (C_ij); then kick(). The paper's form has L_i on both stresses.
 template <Kernel K, bool PaperMomentum>
 void force_updated(const V& v, Index first, Index last) {
   const double *txx = v.flux[0], *txy = v.flux[1], *tyx = v.flux[2], *tyy = v.flux[3];
@@ -362,8 +378,8 @@ template <Kernel K, bool PaperMomentum>
 constexpr Passes<2> passes = {drift,
                               gradient_reference,
                               force_reference,
-                              gradient_control,
-                              force_control<K>,
+                              gradient_zero_energy,
+                              force_zero_energy<K>,
                               gradient_updated<K, PaperMomentum>,
                               force_updated<K, PaperMomentum>};
 

@@ -4,6 +4,7 @@
 #include "engine.hpp"
 #include "fpz/sph/archive.hpp"
 #include "fpz/sph/option_table.hpp"
+#include "fpz/state_fields.hpp"
 
 namespace fpz::sph {
 
@@ -60,72 +61,57 @@ std::uint64_t fingerprint(const RunSetup<Dim>& s) {
 template <class A, class S>
 requires std::same_as<std::remove_const_t<S>, State<double, 2>> ||
     std::same_as<std::remove_const_t<S>, State<double, 3>>
-void transfer(A& archive, S& s) {
-  archive(s.strain);
-  archive(s.stress);
-  archive(s.cracked);
-  archive(s.frame);
-  archive(s.crack.traction);
-  archive(s.crack.jump);
-  archive(s.crack.plastic_jump);
-  archive(s.crack.offset);
-  archive(s.crack.slip);
-  archive(s.crack.integrity);
-  archive(s.crack.dissipated);
+void transfer(A& archive, S& state) {
+  const auto pass = [&archive](const char*, auto& member) { archive(member); };
+  visit_point(state, pass);
+  visit_crack(state, pass);
 }
+
+namespace detail {
 
 namespace {
 
-/// Everything that changes during a run. What follows from it (weights, flags, views) is made anew after reading.
-template <class A, class E>
-void visit(A& archive, E& e) {
-  auto& p = e.particles;
-  archive(e.steps);
-  archive(e.started);
-  archive(e.prescribed_work);
-  archive(e.kinetic_start);
-  archive(e.builds);
-  archive(e.released);
-  archive(p.position);
-  archive(p.velocity);
-  archive(p.acceleration);
-  archive(p.predicted);
-  archive(p.stress);
-  archive(p.strain);
-  archive(p.correction);
-  archive(p.artificial);
-  archive(p.gradient);
-  archive(p.flux);
-  archive(p.rotation);
-  archive(p.volume);
-  archive(p.density);
-  archive(p.kind);
-  archive(p.length);
-  archive(p.fracture);
-  for (std::size_t i = 0; i < p.count; ++i) {
-    if (p.kind[i] == kind::cracked) archive(p.point[i]);
+/// Clock, ledger and particles; the other parts of a run have their own state.
+template <class A, class R>
+void transfer_run(A& archive, R& run) {
+  archive(run.steps);
+  archive(run.started);
+  std::remove_cvref_t<decltype(run.ledger)>::transfer_sums(archive, run.ledger);
+  std::remove_cvref_t<R>::fields(run, Transfer<A>{archive});
+  for (std::size_t i = 0; i < run.particles.count; ++i) {
+    if (run.particles.kind[i] == kind::cracked) archive(run.particles.point[i]);
   }
-  archive(e.damping_work);
-  archive(e.viscous_work);
-  archive(e.artificial_work);
-  archive(e.damping_next);
-  archive(e.viscous_force);
-  archive(e.artificial_force);
-  archive(e.control_work);
-  archive(e.control_next);
-  archive(e.built_at);
-  archive(e.lists);
-  archive(e.reaction);
-  archive(e.group_velocity);
 }
 
 }  // namespace
 
 template <int Dim>
+void Engine<Dim>::save(Writer& archive) const {
+  transfer_run(archive, run);
+  body->save(archive);
+  for (const auto& boundary : boundaries) boundary->save(archive);
+  if (control) control->save(archive);
+}
+
+template <int Dim>
+void Engine<Dim>::load(Reader& archive) {
+  transfer_run(archive, run);
+  RunData<Dim>::fields(run, Spoil{run.particles.count});
+  body->load(archive);
+  for (const auto& boundary : boundaries) boundary->load(archive);
+  if (control) control->load(archive);
+}
+
+template void Engine<2>::save(Writer&) const;
+template void Engine<2>::load(Reader&);
+
+}  // namespace detail
+
+template <int Dim>
 std::vector<unsigned char> Simulation<Dim>::snapshot() const {
   Writer w(magic);
-  w(fingerprint(engine_->setup));
-  visit(w, std::as_const(*engine_));
+  w(fingerprint(engine_->run.setup));
+  engine_->save(w);
   return std::move(w).sealed();
 }
 
@@ -135,13 +121,12 @@ void Simulation<Dim>::restore(std::span<const unsigned char> bytes) {
     Reader r(bytes, magic);
     std::uint64_t print = 0;
     r(print);
-    if (print != fingerprint(engine_->setup)) throw ArchiveError("it is of another set-up");
-    visit(r, *engine_);
+    if (print != fingerprint(engine_->run.setup)) throw ArchiveError("it is of another set-up");
+    engine_->load(r);
     if (r.left() != 0) throw ArchiveError("it is too long");
   } catch (const ArchiveError& e) {
     throw std::runtime_error(std::string("snapshot: ") + e.what());
   }
-  engine_->remake_bonds();
 }
 
 template std::vector<unsigned char> Simulation<2>::snapshot() const;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "chunks.hpp"
 #include "engine.hpp"
 
 namespace fpz::sph {
@@ -16,28 +17,28 @@ double Engine<Dim>::largest_frequency() {
   constexpr int iterations = 400;
   constexpr double settled = 1e-4;  // relative change per iteration; the estimate rises monotonically
   constexpr double strain = 1e-6;   // small against one: the polar decomposition is linear there
-  Particles<Dim>& p = particles;
-  const double amplitude = strain * setup.arrangement.spacing;
+  Particles<Dim>& p = run.particles;
+  const double amplitude = strain * run.setup.arrangement.spacing;
   std::mt19937_64 rng(1);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   for (Field& u : p.velocity) {
     for (std::size_t i = 0; i < p.count; ++i) u[i] = amplitude * uniform(rng);
   }
-  View<Dim> v = view;
+  View<Dim> v = run.view;
   v.step = 1.0;
   v.damped = false;
-  for (std::size_t c = 0; c < dimensions; ++c) v.gravity[c] = 0.0;
+  for (std::size_t c = 0; c < run.dimensions; ++c) v.gravity[c] = 0.0;
   double square = 0.0;
   for (int k = 0; k < iterations; ++k) {
-    for (const PrescribedComponent& d : prescribed) p.velocity[d.component][d.slot] = 0.0;
+    for (const auto& boundary : boundaries) boundary->hold();
     const Fields<Dim> before = p.velocity;
     for (Field& g : p.gradient) std::fill(g.begin(), g.end(), 0.0);
-    for_chunks([&](Index first, Index last) { passes->gradient_reference(v, first, last); });
-    for_chunks([&](Index first, Index last) { passes->force_reference(v, first, last); });
+    run.for_chunks([&](Index first, Index last) { run.passes->gradient_reference(v, first, last); });
+    run.for_chunks([&](Index first, Index last) { run.passes->force_reference(v, first, last); });
     double kinetic_norm = 0.0;
     double elastic_norm = 0.0;
     double largest = 0.0;
-    for (std::size_t c = 0; c < dimensions; ++c) {
+    for (std::size_t c = 0; c < run.dimensions; ++c) {
       for (std::size_t i = 0; i < p.count; ++i) {
         kinetic_norm += p.mass[i] * before[c][i] * before[c][i];
         elastic_norm -= p.mass[i] * before[c][i] * p.acceleration[c][i];
@@ -47,7 +48,7 @@ double Engine<Dim>::largest_frequency() {
     if (!(largest > 0.0)) break;
     const double last = square;
     square = elastic_norm / kinetic_norm;
-    for (std::size_t c = 0; c < dimensions; ++c) {
+    for (std::size_t c = 0; c < run.dimensions; ++c) {
       for (std::size_t i = 0; i < p.count; ++i) p.velocity[c][i] = p.acceleration[c][i] * (amplitude / largest);
     }
     if (k > 20 && std::abs(square - last) < settled * square) break;
@@ -63,11 +64,13 @@ template <int Dim>
 double stability_limit(const RunSetup<Dim>& setup) {
   RunSetup<Dim> elastic = setup;
   elastic.options.configuration = Configuration::reference;  // the same operator while nothing has moved
+  if (setup.options.configuration != Configuration::reference) elastic.options.zero_energy_control = 0.0;
   elastic.velocity.clear();
   detail::Engine<Dim> engine(elastic, 1.0);
-  const double control = setup.options.configuration == Configuration::reference ? engine.control_rate() : 0.0;
-  const double limit = 2.0 / engine.largest_frequency();
-  return control > 0.0 ? std::min(limit, 2.0 / control) : limit;
+  double limit = 2.0 / engine.largest_frequency();
+  if (engine.control) limit = std::min(limit, 2.0 / engine.control->rate());
+  for (const auto& boundary : engine.boundaries) limit = std::min(limit, boundary->stable_step());
+  return limit;
 }
 
 template double stability_limit<2>(const RunSetup<2>&);

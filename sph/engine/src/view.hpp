@@ -34,8 +34,8 @@ struct View {
   double* artificial[tensor] = {};
   double* gradient[d * d] = {};
   double* flux[d * d] = {};
-  double* rate[d * d] = {};  // reference: gradient of `predicted` when the control acts
-  double* control[d] = {};   // and the force that it then exerts
+  double* zero_energy_rate[d * d] = {};  // reference: gradient of `predicted` when the zero-energy control acts
+  double* zero_energy_force[d] = {};     // and the force that it then exerts, N
   double* rotation[2] = {};
   const double* damping[d] = {};  // per component: zero where the velocity is prescribed
   unsigned char* flagged = nullptr;
@@ -63,7 +63,7 @@ struct View {
   double reference_shape = 1.0;
   double rest_density = 0.0, sound_speed = 0.0, viscosity_alpha = 0.0, viscosity_beta = 0.0;
   double artificial_stress = 0.0;
-  double control_viscosity = 0.0;  // Pa s, times the number of steps that one action of the control stands for
+  double zero_energy_viscosity = 0.0;  // Pa s, times the number of steps that one action of the control stands for
 };
 
 /// Number of a block, or of an entry of the arrays above.
@@ -73,13 +73,13 @@ using Index = std::ptrdiff_t;
 template <int Dim>
 struct Passes {
   using Pass = void (*)(const View<Dim>&, Index first, Index last);
-  Pass drift;               ///< position += step velocity; predicted velocity of the full step
-  Pass gradient_reference;  ///< velocity gradient -> F, rotation, strain, elastic stress, flux, onset flags
-  Pass force_reference;     ///< internal force, damping, kick
-  Pass gradient_control;    ///< reference: gradient of the predicted velocity
-  Pass force_control;       ///< reference: what opposes relative velocities beyond that gradient, kick
-  Pass gradient_updated;    ///< kernel, L_i, velocity gradient -> density, rotated stress, flux, onset flags
-  Pass force_updated;       ///< the same with artificial viscosity and stress
+  Pass drift;                 ///< position += step velocity; predicted velocity of the full step
+  Pass gradient_reference;    ///< velocity gradient -> F, rotation, strain, elastic stress, flux, onset flags
+  Pass force_reference;       ///< internal force, damping, kick
+  Pass gradient_zero_energy;  ///< reference: gradient of the predicted velocity
+  Pass force_zero_energy;     ///< reference: what opposes relative velocities beyond that gradient, kick
+  Pass gradient_updated;      ///< kernel, L_i, velocity gradient -> density, rotated stress, flux, onset flags
+  Pass force_updated;         ///< the same with artificial viscosity and stress
 };
 
 /// The loops of one instruction set; [kernel][momentum form] where they differ.

@@ -93,4 +93,26 @@ inline constexpr Variant variants[] = {{Configuration::reference, MomentumForm::
                                        {Configuration::updated, MomentumForm::adjoint},
                                        {Configuration::updated, MomentumForm::paper}};
 
+/// A notched block torn at its ends: cracks grow, some particles crack early.
+inline RunSetup<2> torn(const Variant& v) {
+  RunSetup<2> s = block(30, 14);
+  s.parameters = concrete();
+  s.options.configuration = v.configuration;
+  s.options.momentum = v.momentum;
+  s.options.damping = 0.05;
+  s.options.release_integrity = 0.3;
+  RunSetup<2> notched = s;
+  notched.arrangement = {};
+  notched.arrangement.spacing = s.arrangement.spacing;
+  for (std::size_t i = 0; i < s.arrangement.size(); ++i) {
+    const Vector& x = s.arrangement.position[i];
+    if (x[1] < 5e-3 && std::abs(x[0] - 15e-3) < 1e-3) continue;
+    notched.arrangement.add(x, s.arrangement.volume[i]);
+  }
+  add_group(notched, {"left", {Motion{-1.0, 1e-6}, Motion{0.0, 0.0}}, true},
+            [](const Vector& x) { return x[0] < 3e-3; });
+  add_group(notched, {"right", {Motion{1.0, 1e-6}, std::nullopt}, true}, [](const Vector& x) { return x[0] > 27e-3; });
+  return notched;
+}
+
 }  // namespace fpz::sph::test

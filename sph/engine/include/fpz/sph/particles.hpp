@@ -7,27 +7,20 @@
 #include <vector>
 
 #include "fpz/double_scale.hpp"
+#include "fpz/sph/lanes.hpp"
 
 namespace fpz::sph {
-
-/// Particles are handled in blocks of this many: one SIMD lane, one particle.
-inline constexpr std::size_t lanes = 8;
 
 using Field = std::vector<double>;
 /// N components of a vector or tensor.
 template <int N>
 using Fields = std::array<Field, static_cast<std::size_t>(N)>;
 
-/// How a particle responds; stored as double because it is a mask of the lane loops.
-namespace kind {
-inline constexpr double intact = 0.0;
-inline constexpr double cracked = 1.0;
-inline constexpr double elastic = 2.0;  ///< never cracks: boundary particles and padding
-}  // namespace kind
-
 /// Times: positions, stress and density are at the full step n, `velocity` at n + 1/2, `acceleration` at n.
 template <int Dim>
 struct Particles {
+  static constexpr int dimensions = Dim;
+
   std::size_t count = 0;        ///< real particles; the arrays are longer, up to a whole block
   std::vector<std::size_t> id;  ///< index in the arrangement
   Fields<Dim> start;

@@ -1,4 +1,4 @@
-// Control of the velocities that the gradient of the reference configuration does not see.
+// Zero-energy control: the velocities that the gradient of the reference configuration does not see.
 #include <cmath>
 
 #include "setups.hpp"
@@ -35,7 +35,7 @@ double left(const Simulation<2>& run) {
   return sum / square;
 }
 
-TEST(Control, RemovesAlternatingVelocities) {
+TEST(ZeroEnergyControl, RemovesAlternatingVelocities) {
   for (const MomentumForm form : {MomentumForm::adjoint, MomentumForm::paper}) {
     RunSetup<2> off = lattice(0.0, checkerboard);
     RunSetup<2> on = lattice(Options<2>{}.zero_energy_control, checkerboard);
@@ -51,7 +51,7 @@ TEST(Control, RemovesAlternatingVelocities) {
 }
 
 /// The energy that it takes is reported, and the balance closes; prescribed components included.
-TEST(Control, ItsWorkIsReported) {
+TEST(ZeroEnergyControl, ItsWorkIsReported) {
   RunSetup<2> s = lattice(0.01, checkerboard, 0.1);
   add_group(s, {"left", {Motion{0.0, 0.0}, std::nullopt}, true}, [](const Vector& x) { return x[0] < 3e-3; });
   add_group(s, {"right", {Motion{0.02, 5e-6}, Motion{0.0, 0.0}}, true}, [](const Vector& x) { return x[0] > 21e-3; });
@@ -67,9 +67,9 @@ TEST(Control, ItsWorkIsReported) {
   EXPECT_GT(last, 0.3 * run.energies().kinetic_start);
 }
 
-/// Affine motion meets no force of the control on any arrangement (steps so short that it stays affine), neither does a
-/// spin through half a turn.
-TEST(Control, DoesNothingToAffineMotion) {
+/// Affine motion meets no force of the zero-energy control on any arrangement (steps so short that it stays affine),
+/// neither does a spin through half a turn.
+TEST(ZeroEnergyControl, DoesNothingToAffineMotion) {
   Matrix a;
   a << 30.0, -20.0, 50.0, 10.0;
   const auto taken = [](const std::function<Vector(const Vector&)>& field) {
@@ -90,7 +90,7 @@ TEST(Control, DoesNothingToAffineMotion) {
   EXPECT_LT(std::abs(turning.energies().viscous), 1e-6 * turning.energies().kinetic_start);
 }
 
-TEST(Control, ConservesMomentumAndMomentOfMomentum) {
+TEST(ZeroEnergyControl, ConservesMomentumAndMomentOfMomentum) {
   RunSetup<2> s = lattice(
       0.02, [](const Vector& x) { return Vector(checkerboard(x) + vec(0.0, 0.01 + x[0])); }, 0.2);
   s.options.courant = 0.01;  // the internal force, which keeps the moment only to the order of the strain, is small
@@ -113,7 +113,7 @@ TEST(Control, ConservesMomentumAndMomentOfMomentum) {
 }
 
 /// However strong: the interval and the time step follow, and no run explodes.
-TEST(Control, IsStableAtAnyStrength) {
+TEST(ZeroEnergyControl, IsStableAtAnyStrength) {
   for (const double control : {0.01, 0.1, 1.0, 10.0}) {
     RunSetup<2> s = lattice(
         control, [](const Vector& x) { return vec(std::sin(5e3 * x[0]), std::cos(4e3 * x[1])); }, 0.3);

@@ -1,0 +1,26 @@
+#include "body.hpp"
+
+#include "reference_body.hpp"
+#include "updated_body.hpp"
+
+namespace fpz::sph::detail {
+
+template <int Dim>
+void Body<Dim>::point_bonds() {
+  View<Dim>& v = run_.view;
+  v.column = bonds_.column.data();
+  v.neighbour = bonds_.neighbour.data();
+  v.closeness = bonds_.closeness.data();
+  for (std::size_t c = 0; c < run_.dimensions; ++c) v.weight[c] = bonds_.weight[c].data();
+}
+
+template <int Dim>
+std::unique_ptr<Body<Dim>> make_body(RunData<Dim>& run) {
+  if (run.setup.options.configuration == Configuration::updated) return std::make_unique<UpdatedBody<Dim>>(run);
+  return std::make_unique<ReferenceBody<Dim>>(run);
+}
+
+template void Body<2>::point_bonds();
+template std::unique_ptr<Body<2>> make_body<2>(RunData<2>&);
+
+}  // namespace fpz::sph::detail

@@ -1,0 +1,94 @@
+// How the deformation of the body is followed: which bonds its particles have, and what strain and force are. Two rooms,
+// reference_body and updated_body, chosen in make_body().
+#pragma once
+
+#include <memory>
+
+#include "bonds.hpp"
+#include "plane.hpp"
+#include "run_data.hpp"
+
+namespace fpz::sph::detail {
+
+template <int Dim>
+class Body {
+ public:
+  explicit Body(RunData<Dim>& run) : run_(run) {}
+  virtual ~Body() = default;
+  Body(const Body&) = delete;
+  Body& operator=(const Body&) = delete;
+
+  /// What the first forces need.
+  virtual void start() {}
+  /// Positions from n to n + 1, strains, stresses and cracks with them. The first failure of a particle.
+  [[nodiscard]] virtual Outcome advance() = 0;
+  /// Forces at n, velocities to n + 1/2; `view` has the step of this kick.
+  virtual void force(const View<Dim>& view) = 0;
+
+  /// Viscosity (Pa s) against the velocities that its gradient does not see, zero for none.
+  [[nodiscard]] virtual double zero_energy_viscosity() const { return 0.0; }
+
+  /// What cannot be found from the particles, for snapshots; load() makes what follows from it, after the particles.
+  virtual void save(Writer& archive) const = 0;
+  virtual void load(Reader& archive) = 0;
+
+  [[nodiscard]] const NeighbourLists& lists() const { return lists_; }
+  [[nodiscard]] long long builds() const { return builds_; }      ///< of the neighbour lists
+  [[nodiscard]] long long released() const { return released_; }  ///< bonds cut by cracks
+
+ protected:
+  /// Positions at which the bonds are measured.
+  [[nodiscard]] virtual const Fields<Dim>& bond_positions() const = 0;
+  /// Strain increment of a particle whose state at n is `begin`, in the frame of that state.
+  [[nodiscard]] virtual Tensor<double, Dim> strain_increment(std::size_t i, const State<double, Dim>& begin) const = 0;
+  /// Turns an updated state into the frame of n + 1.
+  virtual void turn(std::size_t i, State<double, Dim>& point) const = 0;
+  /// Stores what the force sums for a particle with this stress.
+  virtual void set_flux(std::size_t i, const Symmetric& stress) = 0;
+
+  /// Runs loops(first, last) and then the library on what they flagged, chunk by chunk; the first failure in the order
+  /// of the particles.
+  template <class F>
+  [[nodiscard]] Outcome strain_with(F&& loops);
+  void point_bonds();
+
+  template <class Archive, class Self>
+  static void transfer_lists(Archive& archive, Self& self) {
+    archive(self.lists_);
+    archive(self.builds_);
+    archive(self.released_);
+  }
+
+  RunData<Dim>& run_;
+  NeighbourLists lists_;
+  Bonds<Dim> bonds_;
+  long long builds_ = 0;
+  long long released_ = 0;
+
+ private:
+  /// Library update of the flagged particles of [first, last) blocks. Returns the first failure.
+  [[nodiscard]] Outcome update_flagged(Index first, Index last);
+  [[nodiscard]] Outcome update_particle(std::size_t i);
+  /// H of a particle whose crack has the given unit normal, m: band_width() of its neighbours, those that it still has.
+  [[nodiscard]] double band_length(std::size_t i, const Vec<double, Dim>& normal) const;
+};
+
+/// The body of the options' configuration.
+template <int Dim>
+[[nodiscard]] std::unique_ptr<Body<Dim>> make_body(RunData<Dim>& run);
+
+template <int Dim>
+template <class F>
+Outcome Body<Dim>::strain_with(F&& loops) {
+  std::vector<Outcome> failures(run_.particles.blocks() / static_cast<std::size_t>(chunk_blocks) + 1);
+  run_.for_chunks([&](Index first, Index last) {
+    loops(first, last);
+    failures[static_cast<std::size_t>(first / chunk_blocks)] = update_flagged(first, last);
+  });
+  for (const Outcome& f : failures) {
+    if (!f.ok()) return f;
+  }
+  return {};
+}
+
+}  // namespace fpz::sph::detail

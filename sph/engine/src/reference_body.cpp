@@ -1,0 +1,173 @@
+#include "reference_body.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "chunks.hpp"
+
+namespace fpz::sph::detail {
+
+namespace {
+constexpr long long release_interval = 16;  // steps between searches for open bonds: openings grow slowly
+}
+
+template <int Dim>
+ReferenceBody<Dim>::ReferenceBody(RunData<Dim>& run) : Body<Dim>(run) {
+  const Particles<Dim>& p = run.particles;
+  this->lists_ = find_neighbours<Dim>(p.start, p.count, kernel_support * run.h);
+  separate<Dim>(this->lists_, run.setup.arrangement.cuts, p.start);
+  this->bonds_ = pack<Dim>(this->lists_, p.padded(), false);
+  this->builds_ = 1;
+  for (std::size_t i = 0; i < p.count; ++i) write_row(i);
+  this->point_bonds();
+}
+
+template <int Dim>
+Outcome ReferenceBody<Dim>::advance() {
+  const RunData<Dim>& run = this->run_;
+  const Outcome outcome = this->strain_with([&run](Index first, Index last) {
+    run.passes->drift(run.view, first, last);
+    run.passes->gradient_reference(run.view, first, last);
+  });
+  if (run.setup.options.release_integrity > 0.0 && run.steps % release_interval == 0) release_bonds();
+  return outcome;
+}
+
+template <int Dim>
+void ReferenceBody<Dim>::force(const View<Dim>& view) {
+  const auto pass = this->run_.passes->force_reference;
+  this->run_.for_chunks([&](Index first, Index last) { pass(view, first, last); });
+}
+
+/// With mass scaling so that its rate keeps its ratio to the time step.
+template <int Dim>
+double ReferenceBody<Dim>::zero_energy_viscosity() const {
+  const RunData<Dim>& run = this->run_;
+  return run.setup.options.zero_energy_control * run.view.rest_density * run.view.sound_speed * run.h *
+         std::sqrt(run.setup.options.mass_scale);
+}
+
+template <int Dim>
+Tensor<double, Dim> ReferenceBody<Dim>::strain_increment(std::size_t i, const State<double, Dim>& begin) const {
+  Tensor<double, Dim> increment;
+  for (std::size_t k = 0; k < this->run_.components; ++k) {
+    const auto c = static_cast<int>(k);
+    increment[c] = this->run_.particles.strain[k][i] - begin.strain[c];
+  }
+  return increment;
+}
+
+template <int Dim>
+void ReferenceBody<Dim>::set_flux(std::size_t i, const Symmetric& stress) {
+  Particles<Dim>& p = this->run_.particles;
+  const Symmetric l = {p.correction[0][i], p.correction[1][i], p.correction[2][i]};
+  const Full t = flux_of(p.rotation[0][i], p.rotation[1][i], stress, l);
+  p.flux[0][i] = t.xx;
+  p.flux[1][i] = t.xy;
+  p.flux[2][i] = t.yx;
+  p.flux[3][i] = t.yy;
+}
+
+/// eq 17-18: kernel gradients of the undeformed body and their correction L_i.
+template <int Dim>
+void ReferenceBody<Dim>::write_row(std::size_t i) {
+  RunData<Dim>& run = this->run_;
+  Particles<Dim>& p = run.particles;
+  Bonds<Dim>& bonds = this->bonds_;
+  const std::vector<int>& list = this->lists_[i];
+  const Kernel kernel = run.setup.options.kernel;
+  const std::size_t block = i / lanes;
+  const auto first = static_cast<std::size_t>(bonds.column[block]);
+  const auto width = static_cast<std::size_t>(bonds.column[block + 1]) - first;
+  const double h = run.h;
+  const double norm = kernel_norm<Dim>(kernel, h) / (h * h);
+  const auto entry = [&](std::size_t k) { return (first + k) * lanes + i % lanes; };
+  Symmetric moment = {0.0, 0.0, 0.0};
+  for (std::size_t k = 0; k < width; ++k) {
+    const bool real = k < list.size();
+    const std::size_t j = real ? static_cast<std::size_t>(list[k]) : i;
+    const double rx = p.start[0][j] - p.start[0][i];
+    const double ry = p.start[1][j] - p.start[1][i];
+    const double q = std::sqrt(rx * rx + ry * ry) / h;
+    const double slope = real ? norm * (p.volume[i] * p.volume[j]) * kernel_slope(kernel, q) : 0.0;
+    bonds.neighbour[entry(k)] = static_cast<int>(j);
+    bonds.weight[0][entry(k)] = slope * rx;
+    bonds.weight[1][entry(k)] = slope * ry;
+    moment.xx += slope * rx * rx;
+    moment.yy += slope * ry * ry;
+    moment.xy += slope * rx * ry;
+  }
+  const double inverse = 1.0 / p.volume[i];
+  Symmetric c = correction_of({moment.xx * inverse, moment.yy * inverse, moment.xy * inverse});
+  if (run.setup.options.momentum == MomentumForm::paper) {
+    // L_i is on both stresses and on the velocity gradient alike: it goes into the weights of the row.
+    for (std::size_t k = 0; k < width; ++k) {
+      const double wx = bonds.weight[0][entry(k)];
+      const double wy = bonds.weight[1][entry(k)];
+      bonds.weight[0][entry(k)] = c.xx * wx + c.xy * wy;
+      bonds.weight[1][entry(k)] = c.xy * wx + c.yy * wy;
+    }
+    c = {1.0, 1.0, 0.0};
+  }
+  p.correction[0][i] = c.xx;
+  p.correction[1][i] = c.yy;
+  p.correction[2][i] = c.xy;
+}
+
+template <int Dim>
+std::vector<int> ReferenceBody<Dim>::released_by(std::size_t i) const {
+  const Particles<Dim>& p = this->run_.particles;
+  const CohesiveState<double, Dim>& crack = p.point[i].crack;
+  std::vector<int> cut;
+  if (!(crack.jump[0] > 0.0)) return cut;
+  // The crack's normal in the undeformed body.
+  const double nx = p.point[i].frame(0, 0);
+  const double ny = p.point[i].frame(0, 1);
+  for (const int neighbour : this->lists_[i]) {
+    const auto j = static_cast<std::size_t>(neighbour);
+    const double rx = p.start[0][j] - p.start[0][i];
+    const double ry = p.start[1][j] - p.start[1][i];
+    // Displacement of j seen from i, turned back by the rotation of i.
+    const double gx = p.position[0][j] - p.position[0][i];
+    const double gy = p.position[1][j] - p.position[1][i];
+    const double ux = p.rotation[0][i] * gx + p.rotation[1][i] * gy - rx;
+    const double uy = p.rotation[0][i] * gy - p.rotation[1][i] * gx - ry;
+    const double along = nx * rx + ny * ry;
+    const double opening = (nx * ux + ny * uy) * (along < 0.0 ? -1.0 : 1.0);
+    if (opening >= 0.5 * crack.jump[0]) cut.push_back(neighbour);
+  }
+  return cut;
+}
+
+template <int Dim>
+void ReferenceBody<Dim>::release_bonds() {
+  const Particles<Dim>& p = this->run_.particles;
+  NeighbourLists& lists = this->lists_;
+  std::vector<std::size_t> changed;
+  for (std::size_t i = 0; i < p.count; ++i) {
+    if (p.kind[i] != kind::cracked) continue;
+    if (p.point[i].crack.integrity >= this->run_.setup.options.release_integrity) continue;
+    for (const int j : released_by(i)) {
+      std::erase(lists[i], j);
+      std::erase(lists[static_cast<std::size_t>(j)], static_cast<int>(i));
+      changed.push_back(i);
+      changed.push_back(static_cast<std::size_t>(j));
+      ++this->released_;
+    }
+  }
+  std::sort(changed.begin(), changed.end());
+  changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
+  for (const std::size_t i : changed) write_row(i);
+}
+
+template <int Dim>
+void ReferenceBody<Dim>::load(Reader& archive) {
+  this->transfer_lists(archive, *this);
+  // Rows keep their place; only what was cut since the start differs.
+  for (std::size_t i = 0; i < this->run_.particles.count; ++i) write_row(i);
+  this->point_bonds();
+}
+
+template class ReferenceBody<2>;
+
+}  // namespace fpz::sph::detail

@@ -1,0 +1,35 @@
+// Total Lagrangian: bonds and kernel gradients of the undeformed body, built once, cut where a crack has fully opened.
+// Strain is U - I of the deformation gradient, stress stays in the frame that turns with the particle.
+#pragma once
+
+#include "body.hpp"
+
+namespace fpz::sph::detail {
+
+template <int Dim>
+class ReferenceBody final : public Body<Dim> {
+ public:
+  explicit ReferenceBody(RunData<Dim>& run);
+
+  [[nodiscard]] Outcome advance() override;
+  void force(const View<Dim>& view) override;
+  [[nodiscard]] double zero_energy_viscosity() const override;
+  void save(Writer& archive) const override { this->transfer_lists(archive, *this); }
+  void load(Reader& archive) override;
+
+ protected:
+  [[nodiscard]] const Fields<Dim>& bond_positions() const override { return this->run_.particles.start; }
+  [[nodiscard]] Tensor<double, Dim> strain_increment(std::size_t i, const State<double, Dim>& begin) const override;
+  void turn(std::size_t, State<double, Dim>&) const override {}
+  void set_flux(std::size_t i, const Symmetric& stress) override;
+
+ private:
+  /// Weights and correction of one row from its list.
+  void write_row(std::size_t i);
+  /// Cuts bonds across open cracks (options.release_integrity).
+  void release_bonds();
+  /// Neighbours of a cracked particle beyond its crack, far enough away to let go.
+  [[nodiscard]] std::vector<int> released_by(std::size_t i) const;
+};
+
+}  // namespace fpz::sph::detail

@@ -1,0 +1,115 @@
+// The start of a run: particles in curve order, constants, the choice of the compiled loops.
+#include "run_data.hpp"
+
+#include <cmath>
+
+#include "bonds.hpp"
+
+#ifdef _OPENMP
+#include <omp.h>
+#endif
+
+namespace fpz::sph::detail {
+
+namespace {
+
+template <int Dim>
+const Passes<Dim>* choose_passes(const Options<Dim>& o) {
+  const int kernel = static_cast<int>(o.kernel);
+  const int momentum = static_cast<int>(o.momentum);
+#ifdef FPZ_SPH_X86
+  const bool avx2 = __builtin_cpu_supports("avx2") > 0;
+  const bool avx512 = avx2 && __builtin_cpu_supports("avx512f") > 0 && __builtin_cpu_supports("avx512vl") > 0 &&
+                      __builtin_cpu_supports("avx512dq") > 0;
+  const InstructionSet want = o.instruction_set;
+  if (avx512 && (want == InstructionSet::best || want == InstructionSet::avx512)) {
+    return &avx512_passes<Dim>(kernel, momentum);
+  }
+  if (avx2 && want != InstructionSet::baseline) return &avx2_passes<Dim>(kernel, momentum);
+#endif
+  return &baseline_passes<Dim>(kernel, momentum);
+}
+
+}  // namespace
+
+int team_size(int requested) {
+  if (requested > 0) return requested;
+#ifdef _OPENMP
+  return omp_get_max_threads();
+#else
+  return 1;
+#endif
+}
+
+template <int Dim>
+RunData<Dim>::RunData(const RunSetup<Dim>& s, double time_step) : setup(s), dt(time_step) {
+  const Options<Dim>& o = setup.options;
+  material = make_material(setup.parameters, setup.setting);
+  update_options.method = o.method;
+  h = o.smoothing_ratio * setup.arrangement.spacing;
+  passes = choose_passes(o);
+  place_particles();
+  fields(*this, Point<Dim>{view});
+  set_constants();
+}
+
+template <int Dim>
+void RunData<Dim>::place_particles() {
+  const Arrangement<Dim>& a = setup.arrangement;
+  const Options<Dim>& o = setup.options;
+  Particles<Dim>& p = particles;
+  p.count = a.size();
+  p.id = curve_order<Dim>(a.position, a.spacing);
+  slot_of.resize(p.count);
+  for (std::size_t i = 0; i < p.count; ++i) slot_of[p.id[i]] = i;
+  // Padding lanes: no inverse mass, which is inertia without end.
+  fields(*this, Allocate{(p.count + lanes - 1) / lanes * lanes});
+  std::fill(p.rotation[0].begin(), p.rotation[0].end(), 1.0);
+  p.point.resize(p.count);
+
+  for (std::size_t i = 0; i < p.count; ++i) {
+    const std::size_t k = p.id[i];
+    for (std::size_t c = 0; c < dimensions; ++c) {
+      p.start[c][i] = p.position[c][i] = a.position[k][static_cast<int>(c)];
+      if (!setup.velocity.empty()) p.velocity[c][i] = setup.velocity[k][static_cast<int>(c)];
+      damping[c][i] = o.damping;
+    }
+    p.volume[i] = a.volume[k];
+    p.density[i] = setup.parameters.density;
+    p.mass[i] = setup.parameters.density * a.volume[k] * o.mass_scale;
+    p.inverse_mass[i] = 1.0 / p.mass[i];
+    const double size = Dim == 2 ? std::sqrt(a.volume[k]) : std::cbrt(a.volume[k]);
+    p.length[i] = o.rve_length.rule == RveLength::Rule::number ? o.rve_length.value : size;
+    const int g = a.group[k];
+    p.kind[i] = g >= 0 && setup.groups[static_cast<std::size_t>(g)].elastic ? kind::elastic : kind::intact;
+  }
+}
+
+template <int Dim>
+void RunData<Dim>::set_constants() {
+  const Options<Dim>& o = setup.options;
+  View<Dim>& v = view;
+  for (std::size_t c = 0; c < dimensions; ++c) v.gravity[c] = o.gravity[static_cast<int>(c)];
+  v.step = dt;
+  v.lambda = material.bulk.lambda;
+  v.mu = material.bulk.mu;
+  v.sin_phi = material.sin_phi;
+  v.strength = material.law.cohesion * material.cos_phi;
+  v.apex = material.law.apex;
+  v.weight_scale = 1.0 / o.mass_scale;
+  v.rest_density = setup.parameters.density;
+  v.sound_speed = std::sqrt(setup.parameters.young_modulus / setup.parameters.density);
+  v.top_speed = std::sqrt((v.lambda + 2.0 * v.mu) / setup.parameters.density);
+  v.damped = o.damping > 0.0;
+  v.smoothing = h;
+  v.inverse_smoothing = 1.0 / h;
+  v.slope_norm = kernel_norm<Dim>(o.kernel, h) / (h * h);
+  v.reference_shape = 1.0 / kernel_shape(o.kernel, 1.0 / o.smoothing_ratio);
+  v.viscosity_alpha = o.viscosity_alpha;
+  v.viscosity_beta = o.viscosity_beta;
+  v.artificial_stress = o.artificial_stress;
+}
+
+template struct RunData<2>;
+
+}  // namespace fpz::sph::detail

@@ -1,0 +1,68 @@
+// What all parts of a run share: set-up, constants, clock, particles, ledger, and how work is dealt out to threads.
+#pragma once
+
+#include "fpz/sph/simulation.hpp"
+#include "work_ledger.hpp"
+
+namespace fpz::sph::detail {
+
+/// Number of threads asked for.
+[[nodiscard]] int team_size(int requested);
+
+inline constexpr Index chunk_blocks = 16;
+
+/// First particle of a block.
+[[nodiscard]] inline std::size_t lanes_begin(Index block) { return static_cast<std::size_t>(block) * lanes; }
+
+template <int Dim>
+struct RunData {
+  static_assert(Dim == 2, "the engine is for the plane: plane.hpp, the loops of passes.inl and what calls them");
+  static constexpr auto dimensions = static_cast<std::size_t>(Dim);
+  static constexpr auto components = static_cast<std::size_t>(tensor_size<Dim>);
+
+  RunSetup<Dim> setup;
+  Material<double> material;
+  fpz::Options update_options;
+  double h = 0.0;   ///< smoothing length, m
+  double dt = 0.0;  ///< s
+
+  long long steps = 0;
+  bool started = false;  ///< the velocities are half a step ahead
+
+  Particles<Dim> particles;
+  std::vector<std::size_t> slot_of;
+  Fields<Dim> damping;  ///< local damping per component, zero where the velocity is prescribed
+  Mask flagged;         ///< of the last pass: the library must update the particle
+  Mask bad;             ///< of the last pass, per block: a velocity is out of bounds
+  WorkLedger<Dim> ledger;
+
+  const Passes<Dim>* passes = nullptr;
+  View<Dim> view;
+
+  RunData(const RunSetup<Dim>& s, double time_step);
+  RunData(const RunData&) = delete;
+  RunData& operator=(const RunData&) = delete;
+
+  [[nodiscard]] double now() const { return static_cast<double>(steps) * dt; }
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    using V = View<Dim>;
+    visit_fields(self.particles, visit);
+    visit(FieldInfo{"damping", Extent::particle, Keep::constant}, self.damping, &V::damping);
+    visit(FieldInfo{"flagged", Extent::particle, Keep::passing}, self.flagged, &V::flagged);
+    visit(FieldInfo{"bad", Extent::block, Keep::passing}, self.bad, &V::bad);
+    WorkLedger<Dim>::fields(self.ledger, visit);
+  }
+
+  /// Runs f(first, last) over all blocks in chunks, on the team; the split never changes results. Defined in
+  /// chunks.hpp.
+  template <class F>
+  void for_chunks(F&& f) const;
+
+ private:
+  void place_particles();
+  void set_constants();
+};
+
+}  // namespace fpz::sph::detail

@@ -1,0 +1,116 @@
+#include "updated_body.hpp"
+
+#include "chunks.hpp"
+
+namespace fpz::sph::detail {
+
+template <int Dim>
+UpdatedBody<Dim>::UpdatedBody(RunData<Dim>& run) : Body<Dim>(run) {
+  fields(*this, Allocate{run.particles.padded()});
+  rebuild();
+}
+
+/// Weights and corrections, without motion.
+template <int Dim>
+void UpdatedBody<Dim>::start() {
+  const RunData<Dim>& run = this->run_;
+  View<Dim> v = run.view;
+  v.step = 0.0;
+  run.for_chunks([&](Index first, Index last) { run.passes->drift(v, first, last); });
+  run.for_chunks([&](Index first, Index last) { run.passes->gradient_updated(v, first, last); });
+}
+
+template <int Dim>
+Outcome UpdatedBody<Dim>::advance() {
+  RunData<Dim>& run = this->run_;
+  Particles<Dim>& p = run.particles;
+  run.for_chunks([&](Index first, Index last) {
+    run.passes->drift(run.view, first, last);
+    for (std::size_t i = lanes_begin(first); i < lanes_begin(last); ++i) {
+      p.volume[i] = p.mass[i] * run.view.weight_scale / p.density[i];
+    }
+  });
+  if (outdated()) rebuild();
+  return this->strain_with([&run](Index first, Index last) { run.passes->gradient_updated(run.view, first, last); });
+}
+
+template <int Dim>
+void UpdatedBody<Dim>::force(const View<Dim>& view) {
+  const auto pass = this->run_.passes->force_updated;
+  this->run_.for_chunks([&](Index first, Index last) { pass(view, first, last); });
+}
+
+template <int Dim>
+Tensor<double, Dim> UpdatedBody<Dim>::strain_increment(std::size_t i, const State<double, Dim>&) const {
+  Tensor<double, Dim> increment;
+  for (std::size_t k = 0; k < this->run_.components; ++k) {
+    increment[static_cast<int>(k)] = this->run_.particles.strain[k][i];
+  }
+  return increment;
+}
+
+template <int Dim>
+void UpdatedBody<Dim>::turn(std::size_t i, State<double, Dim>& point) const {
+  const double cosine = this->run_.particles.rotation[0][i];
+  const double sine = this->run_.particles.rotation[1][i];
+  Mat<double, Dim, Dim> q;
+  q << cosine, -sine, sine, cosine;
+  rotate<double, Dim>(point, q);
+}
+
+template <int Dim>
+void UpdatedBody<Dim>::set_flux(std::size_t i, const Symmetric& stress) {
+  Particles<Dim>& p = this->run_.particles;
+  const bool plain = this->run_.setup.options.momentum == MomentumForm::paper;
+  const Symmetric l =
+      plain ? Symmetric{1.0, 1.0, 0.0} : Symmetric{p.correction[0][i], p.correction[1][i], p.correction[2][i]};
+  const Full t = flux_of(1.0, 0.0, stress, l);
+  p.flux[0][i] = t.xx;
+  p.flux[1][i] = t.xy;
+  p.flux[2][i] = t.yx;
+  p.flux[3][i] = t.yy;
+  const Symmetric r = tensile_repulsion(this->run_.setup.options.artificial_stress, stress);
+  p.artificial[0][i] = r.xx;
+  p.artificial[1][i] = r.yy;
+  p.artificial[2][i] = r.xy;
+}
+
+template <int Dim>
+void UpdatedBody<Dim>::rebuild() {
+  const RunData<Dim>& run = this->run_;
+  const Particles<Dim>& p = run.particles;
+  const double skin = run.setup.options.skin * run.setup.arrangement.spacing;
+  this->lists_ = find_neighbours<Dim>(p.position, p.count, kernel_support * run.h + skin);
+  separate<Dim>(this->lists_, run.setup.arrangement.cuts, p.start);
+  this->bonds_ = pack<Dim>(this->lists_, p.padded(), true);
+  this->point_bonds();
+  built_at_ = p.position;
+  ++this->builds_;
+}
+
+template <int Dim>
+bool UpdatedBody<Dim>::outdated() const {
+  const Particles<Dim>& p = this->run_.particles;
+  const double limit = 0.5 * this->run_.setup.options.skin * this->run_.setup.arrangement.spacing;
+  bool outdated = false;
+  for (std::size_t i = 0; i < p.count; ++i) {
+    double moved = 0.0;
+    for (std::size_t c = 0; c < this->run_.dimensions; ++c) {
+      const double d = p.position[c][i] - built_at_[c][i];
+      moved += d * d;
+    }
+    outdated |= moved > limit * limit;
+  }
+  return outdated;
+}
+
+template <int Dim>
+void UpdatedBody<Dim>::load(Reader& archive) {
+  transfer_state(archive, *this);
+  this->bonds_ = pack<Dim>(this->lists_, this->run_.particles.padded(), true);
+  this->point_bonds();
+}
+
+template class UpdatedBody<2>;
+
+}  // namespace fpz::sph::detail
