@@ -6,6 +6,7 @@
 #include <iostream>
 #include <sstream>
 
+#include "fpz/io/markdown.hpp"
 #include "fpz/io/output.hpp"
 #include "fpz/io/problems.hpp"
 #include "sections.hpp"
@@ -85,7 +86,7 @@ int main(int argc, char** argv) try {
   const Gallery gallery{fs::path(folder) / "pictures", fs::path(docs) / "images"};
   fpz::io::make_writable_folder(gallery.work);
   fpz::io::make_writable_folder(gallery.images);
-  fpz::io::write_text(fs::path(docs) / "validation.md", report(results, gallery), true);
+  fpz::io::write_text(fs::path(docs) / "validation.md", fpz::io::wrap_prose(report(results, gallery)), true);
   fpz::io::write_text(fs::path(docs) / "validation.csv", table(results), true);
   std::cout << (fs::path(docs) / "validation.md").string() << "\n";
   return 0;

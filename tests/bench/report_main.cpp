@@ -1,8 +1,11 @@
 // fpz-speed-report: errors and times of the integrators; see docs/speed-vs-error.md.
 #include <CLI/CLI.hpp>
-#include <fstream>
+#include <filesystem>
 #include <iostream>
+#include <sstream>
 
+#include "fpz/io/markdown.hpp"
+#include "fpz/io/output.hpp"
 #include "pictures.hpp"
 #include "report.hpp"
 
@@ -63,13 +66,9 @@ int full(const std::filesystem::path& folder) {
   draw_maps(r.maps, images);
   draw_newton(r.newton, images);
   draw_alternatives(r.alternatives, images);
-  std::ofstream out(folder / "speed-vs-error.md");
-  write_report(out, r);
-  out.close();
-  if (!out) {
-    std::cerr << "cannot write " << (folder / "speed-vs-error.md") << '\n';
-    return 1;
-  }
+  std::ostringstream page;
+  write_report(page, r);
+  fpz::io::write_text(folder / "speed-vs-error.md", fpz::io::wrap_prose(page.str()), true);
   progress("done");
   return 0;
 }

@@ -1,0 +1,117 @@
+#include <cstdio>
+#include <vector>
+
+#include "blocks.hpp"
+#include "fpz/parameters.hpp"
+#ifdef FPZ_DOCS_DRIVER
+#include "fpz/driver/history.hpp"
+#endif
+#ifdef FPZ_DOCS_SPH
+#include "fpz/sph/energy.hpp"
+#include "fpz/sph/option_table.hpp"
+#endif
+
+namespace fpz::docs {
+namespace {
+
+std::string code(std::string_view name) { return std::string("`").append(name).append("`"); }
+
+std::string number(double x) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%g", x);
+  return text;
+}
+
+std::string row(const std::vector<std::string>& cells) {
+  std::string line = "|";
+  for (const std::string& cell : cells) line.append(" ").append(cell).append(cell.empty() ? "|" : " |");
+  return line + "\n";
+}
+
+std::string heading(const std::vector<std::string>& titles) {
+  return row(titles) + row(std::vector<std::string>(titles.size(), "---"));
+}
+
+/// What a person writes of the parameters of a material and of H.
+std::string parameters() {
+  std::string table = heading({"key", "symbol", "unit", "bounds"});
+  for (const ParameterInfo<double>& p : parameter_table<double>) {
+    table += row({code(p.name), std::string(p.symbol), std::string(p.unit), p.bounds.text()});
+  }
+  return table;
+}
+
+std::string parameter_plausibility() {
+  std::string table =
+      heading({"parameter", "unit", "refused below", "doubtful below", "doubtful above", "refused above"});
+  for (const ParameterInfo<double>& p : parameter_table<double>) {
+    const Plausible& v = p.plausible;
+    table +=
+        row({code(p.name), std::string(p.unit), number(v.far_low), number(v.low), number(v.high), number(v.far_high)});
+  }
+  return table;
+}
+
+#ifdef FPZ_DOCS_DRIVER
+std::string driver_history() {
+  std::string table = heading({"column", "unit", "meaning"});
+  for (const driver::Column& c : driver::columns()) {
+    table += row({code(c.name), std::string(c.unit), std::string(c.meaning)});
+  }
+  return table;
+}
+constexpr auto* driver_history_table = driver_history;
+#else
+constexpr std::string (*driver_history_table)() = nullptr;
+#endif
+
+#ifdef FPZ_DOCS_SPH
+// How a default is written in a scene file.
+std::string in_scene(double x) { return number(x); }
+std::string in_scene(int x) { return std::to_string(x); }
+std::string in_scene(const sph::RveLength& h) {
+  return h.rule == sph::RveLength::Rule::number ? number(h.value) : code(to_string(h.rule));
+}
+std::string in_scene(const Vec<double, 2>& v) {
+  return std::string("[").append(number(v[0])).append(", ").append(number(v[1])).append("]");
+}
+template <Worded E>
+std::string in_scene(E word) {
+  return code(to_string(word));
+}
+
+std::string method_options() {
+  std::string table = heading({"key", "unit", "default", "meaning"});
+  sph::for_each_option(sph::Options<2>(), [&](const sph::OptionInfo& info, const auto& value) {
+    table += row({code(info.name), std::string(info.unit), in_scene(value), std::string(info.text)});
+  });
+  return table;
+}
+
+std::string energy_terms() {
+  std::string table = heading({"term", "meaning"});
+  for (const sph::EnergyTerm& term : sph::energy_terms) {
+    if (term.role != sph::EnergyRole::initial) table += row({code(term.name), std::string(term.text)});
+  }
+  return table;
+}
+constexpr auto* method_options_table = method_options;
+constexpr auto* energy_terms_table = energy_terms;
+#else
+constexpr std::string (*method_options_table)() = nullptr;
+constexpr std::string (*energy_terms_table)() = nullptr;
+#endif
+
+constexpr NamedTable tables[] = {
+    {"parameters", parameters},
+    {"parameter-plausibility", parameter_plausibility},
+    {"driver-history", driver_history_table},
+    {"method-options", method_options_table},
+    {"energy-terms", energy_terms_table},
+};
+
+}  // namespace
+
+std::span<const NamedTable> all_tables() { return tables; }
+
+}  // namespace fpz::docs
