@@ -49,7 +49,7 @@ Forward make_forward(const Parameters& base, const Model& model, const Unknowns&
 
 FitParameter make_parameter(const Specification& spec, int index) {
   const ParameterSetting& s = spec.parameters[static_cast<std::size_t>(index)];
-  const ParameterInfo& which = parameter_info[static_cast<std::size_t>(index)];
+  const ParameterInfo<double>& which = parameter_info[static_cast<std::size_t>(index)];
   FitParameter p;
   p.name = which.name;
   p.symbol = which.symbol;
@@ -330,7 +330,7 @@ Calibration calibrate(const Specification& spec, const std::function<void(const 
   all.comparisons = compare_all(all);
   all.derived = derive(all, fitted);
   for (const ReferenceValue& r : spec.references) {
-    for (const ParameterInfo& p : parameter_info) {
+    for (const ParameterInfo<double>& p : parameter_info) {
       if (p.name != r.parameter) continue;
       const double value = all.parameters.*p.member;
       all.references.push_back({r, value, value / r.value - 1.0});

@@ -88,7 +88,7 @@ double delta0_of(const FractureEnergyTest& one, const Parameters& p, double ener
 }
 
 std::string in_words(const FreedParameter& f, double energy_two) {
-  const ParameterInfo& which = info(f.range.parameter);
+  const ParameterInfo<double>& which = info(f.range.parameter);
   const std::string name(which.symbol);
   std::string unit;
   if (!which.unit.empty()) unit.append(1, ' ').append(which.unit);
@@ -139,7 +139,7 @@ ParameterForEnergy delta0_for_energy(const FractureEnergyTest& test, const Param
 }
 
 std::vector<ParameterRange> default_ranges(const Parameters& p) {
-  const double tan_phi = std::tan(p.friction_angle_deg * std::numbers::pi / 180.0);
+  const double tan_phi = std::tan(p.friction_angle_deg * degree);
   return {{Parameter::shear_stiffness, 1e-2 * p.shear_stiffness, 1e2 * p.shear_stiffness},
           {Parameter::cohesion, p.tensile_strength * tan_phi * (1.0 + 1e-6), 10.0 * p.cohesion},
           {Parameter::dilation_angle_deg, 1e-3 * p.friction_angle_deg, p.friction_angle_deg}};

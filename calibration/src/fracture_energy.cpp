@@ -1,12 +1,12 @@
 #include "fpz/calibration/fracture_energy.hpp"
 
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 #include "admissible.hpp"
 #include "fpz/calibration/onset_traction.hpp"
 #include "fpz/cohesive_law.hpp"
+#include "jet.hpp"
 #include "softening_quadrature.hpp"
 #include "words.hpp"
 

@@ -18,6 +18,7 @@ namespace {
 
 namespace io = fpz::io;
 using namespace fpz::calibration;
+using fpz::to_string;
 
 constexpr int interrupted_status = 130;
 

@@ -158,7 +158,6 @@ bool MidLine::evaluate(const State& next, System& s) {
 }
 
 void MidLine::factorise(const System& s) {
-  ++factorisations_;
   Eigen::MatrixXd a = s.stiffness;
   a.diagonal().array() += s.area.array() * s.tangent.array();
   a.noalias() += s.load * (s.gauge / reading_per_load_).transpose();

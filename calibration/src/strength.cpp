@@ -7,6 +7,7 @@
 #include "admissible.hpp"
 #include "fpz/calibration/onset_traction.hpp"
 #include "fpz/material.hpp"
+#include "jet.hpp"
 
 namespace fpz::calibration {
 namespace {
@@ -26,7 +27,7 @@ template <class T>
 Criterion<T> criterion(const BasicParameters<T>& p) {
   using std::cos;
   using std::sin;
-  const T phi = p.friction_angle_deg * (std::numbers::pi / 180.0);
+  const T phi = p.friction_angle_deg * degree;
   Criterion<T> c{p.tensile_strength, p.cohesion, T(0.0), sin(phi), cos(phi), T(0.0)};
   c.tangent = c.sine / c.cosine;
   c.apex = c.cohesion - c.strength * c.tangent;
@@ -102,26 +103,6 @@ std::string problem(const StrengthPoint& x, const Parameters& p) {
 }
 
 }  // namespace
-
-std::string_view to_string(StrengthKind k) {
-  switch (k) {
-    case StrengthKind::uniaxial_tension:
-      return "uniaxial_tension";
-    case StrengthKind::uniaxial_compression:
-      return "uniaxial_compression";
-    case StrengthKind::direct_shear:
-      return "direct_shear";
-    case StrengthKind::triaxial_axial:
-      return "triaxial_axial";
-    case StrengthKind::triaxial_deviator:
-      return "triaxial_deviator";
-    case StrengthKind::brazilian_stress:
-      return "brazilian_stress";
-    case StrengthKind::brazilian_load:
-      return "brazilian_load";
-  }
-  return "unknown";
-}
 
 double splitting_stress(double load, double diameter, double thickness) {
   return 2.0 * load / (std::numbers::pi * diameter * thickness);

@@ -8,6 +8,7 @@
 #include "fpz/driver/dimension.hpp"
 #include "fpz/driver/stage_equations.hpp"
 #include "fpz/driver/trace.hpp"
+#include "jet.hpp"
 #include "words.hpp"
 
 namespace fpz::calibration {

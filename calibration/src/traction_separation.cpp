@@ -9,6 +9,7 @@
 #include "admissible.hpp"
 #include "fpz/calibration/onset_traction.hpp"
 #include "fpz/cohesive_law.hpp"
+#include "jet.hpp"
 
 namespace fpz::calibration {
 namespace {

@@ -10,7 +10,7 @@ namespace fpz::calibration {
 namespace {
 
 Judgement of(std::string_view name, double number, std::string_view unit) {
-  const Typical& t = typical_parameter(name);
+  const Typical t = typical_parameter(name);
   return judge(name, {number * unit_factor(t.quantity, unit).value(), number, unit}, t);
 }
 
@@ -58,7 +58,7 @@ TEST(Plausibility, NoGuessWhereNoUnitFits) {
 
 TEST(Plausibility, EveryKeyOfAMaterialHasARange) {
   for (const auto& key : io::material_keys) {
-    const Typical& t = typical_parameter(key.name);
+    const Plausible t = typical_parameter(key.name).range;
     EXPECT_LT(t.far_low, t.low) << key.name;
     EXPECT_LT(t.low, t.high) << key.name;
     EXPECT_LT(t.high, t.far_high) << key.name;

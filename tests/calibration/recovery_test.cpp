@@ -38,7 +38,7 @@ std::string material(const std::vector<std::string>& fit) {
   const Parameters p = truth();
   std::string text = "\"parameters\": {\"density\": 2400";
   int k = 0;
-  for (const ParameterInfo& which : parameter_info) {
+  for (const ParameterInfo<double>& which : parameter_info) {
     const std::string name(which.name);
     const bool fitted = std::find(fit.begin(), fit.end(), name) != fit.end();
     const double x = p.*which.member;
@@ -85,7 +85,7 @@ class Recovery : public ::testing::Test {
   void expect_recovered(const std::string& set, const std::vector<std::string>& fit) const {
     const Calibration result = calibrate(read(specification(fit, set)));
     EXPECT_TRUE(result.result.usable()) << result.result.message;
-    for (const ParameterInfo& p : parameter_info) {
+    for (const ParameterInfo<double>& p : parameter_info) {
       EXPECT_NEAR(result.parameters.*p.member, truth().*p.member, 1e-6 * truth().*p.member) << p.name;
     }
   }
@@ -250,7 +250,7 @@ double covered(const Specification& exact_spec, bool known) {
   const FitProblem clean = make_problem(exact_spec);
   Eigen::VectorXd x(static_cast<Eigen::Index>(clean.parameters.size()));
   for (std::size_t k = 0; k < clean.parameters.size(); ++k) {
-    for (const ParameterInfo& p : parameter_info) {
+    for (const ParameterInfo<double>& p : parameter_info) {
       if (p.name == clean.parameters[k].name) x[static_cast<Eigen::Index>(k)] = truth().*p.member;
     }
   }

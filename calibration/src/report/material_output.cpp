@@ -38,7 +38,7 @@ Json fixed_json(const Calibration& all) {
 Json data_json(const Calibration& all) {
   Json list = Json::array();
   for (const DataSet& d : all.specification.data) {
-    Json entry = {{"name", d.name}, {"kind", d.kind}, {"role", d.role == Role::fit ? "fit" : "predict"}};
+    Json entry = {{"name", d.name}, {"kind", d.kind}, {"role", to_string(d.role)}};
     entry["points"] = d.measured.size();
     if (!d.file.empty()) entry["file"] = std::filesystem::path(d.file).filename().string();
     if (!d.source.empty()) entry["source"] = d.source;
@@ -48,20 +48,6 @@ Json data_json(const Calibration& all) {
 }
 
 }  // namespace
-
-std::string_view to_string(FitStatus status) {
-  switch (status) {
-    case FitStatus::ok:
-      return "ok";
-    case FitStatus::not_converged:
-      return "not_converged";
-    case FitStatus::undetermined:
-      return "undetermined";
-    case FitStatus::failed:
-      break;
-  }
-  return "failed";
-}
 
 std::string material_json(const Calibration& all) {
   const Specification& spec = all.specification;

@@ -70,7 +70,7 @@ Json data_set_json(const Calibration& all, const Comparison& c, const DataSetRes
   const DataSet& set = all.specification.data[c.data_set];
   Json j = {{"name", set.name},
             {"kind", set.kind},
-            {"role", set.role == Role::fit ? "fit" : "predict"},
+            {"role", to_string(set.role)},
             {"file", set.file.empty() ? Json(nullptr) : Json(set.file)},
             {"source", set.source.empty() ? Json(nullptr) : Json(set.source)},
             {"points", set.measured.size()},

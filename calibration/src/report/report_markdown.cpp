@@ -112,7 +112,7 @@ class MarkdownReport {
   void fixed_row(std::size_t k) {
     const ParameterSetting& s = spec_.parameters[k];
     if (s.fitted) return;
-    const ParameterInfo& p = parameter_info[k];
+    const ParameterInfo<double>& p = parameter_info[k];
     out_ << "| " << code(std::string(p.name)) << " | " << shown_value(s.value, p.unit, 5);
     if (s.from_slope) {
       out_ << " ± " << shown_value(s.from_slope->standard_error, p.unit, 2) << " | initial slope of \""
@@ -223,8 +223,8 @@ class MarkdownReport {
     if (all_.references.empty()) return;
     out_ << "## Reference values\n\n";
     for (const ReferenceComparison& c : all_.references) {
-      const ParameterInfo* p = nullptr;
-      for (const ParameterInfo& q : parameter_info) {
+      const ParameterInfo<double>* p = nullptr;
+      for (const ParameterInfo<double>& q : parameter_info) {
         if (q.name == c.reference.parameter) p = &q;
       }
       out_ << "- " << code(c.reference.parameter) << ": "

@@ -10,8 +10,6 @@ using Kind = JsonValue::Kind;
 constexpr std::size_t longest_name = 100;
 constexpr std::size_t longest_text = 4000;
 
-constexpr std::array<std::string_view, 2> roles = {"fit", "predict"};
-constexpr std::array<std::string_view, 5> losses = {"none", "huber", "soft_l1", "cauchy", "tukey"};
 constexpr std::array<std::string_view, 2> loss_keys = {"kind", "scale"};
 
 constexpr std::array<std::string_view, 6> kind_names = {"fracture_energy", "strength",     "traction_separation",
@@ -24,7 +22,7 @@ void read_loss(const Context& c, const Place& at, DataSet& out) {
   if (!c.reader.object(at, "\"kind\" and \"scale\"")) return;
   c.reader.known_keys(at, loss_keys);
   if (const JsonValue* kind = c.reader.required(at, "kind")) {
-    if (const auto k = read_choice(c, Place(at, *kind), "loss", losses)) out.loss.kind = static_cast<LossKind>(*k);
+    out.loss.kind = read_word<LossKind>(c, Place(at, *kind), "loss").value_or(out.loss.kind);
   }
   if (const JsonValue* scale = at.value().find("scale")) {
     out.loss.scale = c.reader.positive(Place(at, *scale)).value_or(1.0);
@@ -84,7 +82,7 @@ std::optional<DataSet> read_data_set(const SetContext& s, const Place& set) {
     out.source = c.reader.text(Place(set, *source), longest_text).value_or("");
   }
   if (const JsonValue* role = set.value().find("role")) {
-    if (const auto k = read_choice(c, Place(set, *role), "role", roles)) out.role = static_cast<Role>(*k);
+    out.role = read_word<Role>(c, Place(set, *role), "role").value_or(out.role);
   }
   if (const JsonValue* weight = set.value().find("weight")) read_weight(c, Place(set, *weight), out);
   if (const JsonValue* loss = set.value().find("loss")) read_loss(c, Place(set, *loss), out);

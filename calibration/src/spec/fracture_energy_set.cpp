@@ -1,5 +1,4 @@
 // Data sets of the kind "fracture_energy": one measured energy or toughness.
-#include <array>
 #include <cmath>
 
 #include "data_set_reader.hpp"
@@ -8,19 +7,12 @@
 namespace fpz::calibration::detail {
 namespace {
 
-constexpr std::array<std::string_view, 4> modes = {"I", "II", "II_fixed_opening", "direction"};
-constexpr std::array<FracturePath, modes.size()> paths = {FracturePath::opening, FracturePath::shear_at_normal_traction,
-                                                          FracturePath::shear_at_fixed_opening,
-                                                          FracturePath::direction};
-
 FractureEnergyTest read_test(const SetContext& s, const Place& set) {
   const Context& c = s.c;
   FractureEnergyTest test;
-  std::size_t mode = 0;
   if (const JsonValue* v = c.reader.required(set, "mode")) {
-    mode = read_choice(c, Place(set, *v), "mode", modes).value_or(0);
+    test.path = read_word<FracturePath>(c, Place(set, *v), "mode").value_or(test.path);
   }
-  test.path = paths[mode];
   if (const JsonValue* v = set.value().find("end_opening")) test.end = read_judged(c, Place(set, *v), typical::opening);
   if (const JsonValue* v = set.value().find("onset_angle_deg")) {
     test.onset_angle_deg = c.reader.number_between(Place(set, *v), 0.0, 179.9, true);

@@ -13,11 +13,17 @@ namespace {
 constexpr double default_from = 0.1;  ///< part of the rise, over the peak, that gives the initial slope
 constexpr double default_to = 0.4;
 
-constexpr std::array<Wanted, 3> gauge_columns = {Wanted{"cmod", Quantity::length},
-                                                 Wanted{"deflection", Quantity::length},
-                                                 Wanted{"deflection_mid_depth", Quantity::length}};
-constexpr std::array<Gauge, 3> gauges = {Gauge::cmod, Gauge::deflection_load_point, Gauge::deflection_mid_depth};
-constexpr std::array<const char*, 3> gauge_labels = {"CMOD", "Deflection", "Deflection at mid-depth"};
+const char* label_of(Gauge gauge) {
+  switch (gauge) {
+    case Gauge::cmod:
+      return "CMOD";
+    case Gauge::deflection_load_point:
+      return "Deflection";
+    case Gauge::deflection_mid_depth:
+      return "Deflection at mid-depth";
+  }
+  return "";
+}
 
 constexpr std::array<std::string_view, 8> beam_keys = {"unit",  "depth",  "thickness",    "span",
                                                        "notch", "length", "roller_width", "clip_gauge_distance"};
@@ -67,9 +73,7 @@ NotchedSpecimen read_geometry(const SetContext& s, const Place& set, SpecimenSha
 /// By the nominal bending stress 1.5 P span/(thickness ligament^2) that the largest load means.
 void judge_load(const SetContext& s, const Place& set, const NotchedSpecimen& g, double largest) {
   const double per_load = 1.5 * g.span / (g.thickness * g.ligament() * g.ligament());
-  Typical t = typical::bending_stress;
-  t.quantity = Quantity::force;
-  for (double* x : {&t.far_low, &t.low, &t.high, &t.far_high}) *x /= per_load;
+  const Typical t = scaled(typical::bending_stress, Quantity::force, per_load);
   const JsonValue* given = set.value().find("columns");
   if (given == nullptr) given = set.value().find("values");
   const Place columns(set, *given);
@@ -202,9 +206,12 @@ void read_notched(const SetContext& s, const Place& set, SpecimenShape shape, Da
   NotchedSpecimenTest test;
   test.specimen = read_geometry(s, set, shape);
   const auto part = read_slope_part(s, set);
-  const auto which = which_column(c, set, gauge_columns);
+  std::vector<Wanted> gauges;
+  for (const Word<Gauge>& word : Words<Gauge>::list) gauges.push_back({word.text, Quantity::length});
+  const auto which = which_column(c, set, gauges);
   if (!which) return;
-  const std::array<Wanted, 2> wanted = {gauge_columns[*which], Wanted{"load", Quantity::force}};
+  test.gauge = Words<Gauge>::list[*which].value;
+  const std::array<Wanted, 2> wanted = {gauges[*which], Wanted{"load", Quantity::force}};
   auto curve = read_curve(c, s.folder, set, {wanted, 1, 0, 4});
   if (!curve || c.reader.problems().size() != before) return;
   take_curve(*curve, 0, 1, out);
@@ -212,12 +219,11 @@ void read_notched(const SetContext& s, const Place& set, SpecimenShape shape, Da
   if (!(largest > 0.0)) return c.problem(set, "no load is positive; loads that bend the specimen are positive");
   judge_load(s, set, test.specimen, largest);
   judge_reading(s, set, wanted[0].name, out.abscissa.cwiseAbs().maxCoeff());
-  test.gauge = gauges[*which];
   test.readings = out.abscissa;
   const Validation found = validate(test);
   for (const Violation& v : found.errors) c.problem(set, v.field + " = " + io::exact(v.value) + ": " + v.constraint);
   std::vector<Eigen::Index> places = read_nuisances(s, set, test.gauge, out);
-  out.abscissa_axis = readable_axis(gauge_labels[*which], Quantity::length, out.abscissa.maxCoeff());
+  out.abscissa_axis = readable_axis(label_of(test.gauge), Quantity::length, out.abscissa.maxCoeff());
   out.value_axis = readable_axis("Load", Quantity::force, largest);
   out.is_notched = true;
   out.model = make_model(test, places);

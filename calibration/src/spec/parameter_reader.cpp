@@ -67,7 +67,7 @@ class ParameterReader {
       const io::Location& where = base->locations[k];
       set(name, x, where);
       if (x == 0.0 && may_be_zero(name)) continue;
-      const Typical& typical = typical_parameter(name);
+      const Typical typical = typical_parameter(name);
       const Judgement j = calibration::judge(name, {x, x, si_unit(typical.quantity)}, typical);
       const std::string text = where.path + ": " + j.text;
       if (j.verdict == Verdict::impossible) c_.reader.problems().add(where.file, where.line, text);
@@ -134,7 +134,7 @@ class ParameterReader {
 
   void read_entry(const Place& at) {
     const std::string& name = at.value().key;
-    const Typical& typical = typical_parameter(name);
+    const Typical typical = typical_parameter(name);
     const io::Location where{c_.reader.file(), at.line(), at.path()};
     given_.push_back(name);
     if (!at.value().is(Kind::object)) {
@@ -227,7 +227,7 @@ class ParameterReader {
     const JsonValue* own = root_.value().find("parameters");
     const Place all(root_, *own);
     const Place at(all, *f.entry);
-    const Typical& typical = typical_parameter(info(which).name);
+    const Typical typical = typical_parameter(info(which).name);
     const auto unit = read_unit(c_, at, typical.quantity);
     if (!unit) return;
     const auto limit = [&](std::string_view key, double& target) {
@@ -276,13 +276,6 @@ class ParameterReader {
 };
 
 }  // namespace
-
-std::optional<std::size_t> parameter_index(std::string_view name) {
-  for (std::size_t k = 0; k < parameter_info.size(); ++k) {
-    if (parameter_info[k].name == name) return k;
-  }
-  return std::nullopt;
-}
 
 std::pair<double, double> default_bounds(Parameter which, double start) {
   switch (which) {

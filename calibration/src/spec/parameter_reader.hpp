@@ -32,7 +32,4 @@ struct ParameterEntries {
 /// fpz::validate() on the start values; errors become problems at their places.
 void check_start(const Context& c, const Specification& spec, const ParameterEntries& entries);
 
-/// The index of a material parameter, or nothing.
-[[nodiscard]] std::optional<std::size_t> parameter_index(std::string_view name);
-
 }  // namespace fpz::calibration::detail

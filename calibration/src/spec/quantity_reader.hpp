@@ -1,13 +1,16 @@
 // Numbers with units in a specification, and values judged as they are read.
 #pragma once
 
+#include <initializer_list>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "fpz/calibration/plausibility.hpp"
 #include "fpz/io/input_reader.hpp"
+#include "fpz/words.hpp"
 
 namespace fpz::calibration::detail {
 
@@ -45,6 +48,27 @@ struct Context {
 /// One of the names; an unknown one is a problem with a suggestion. Returns its index.
 [[nodiscard]] std::optional<std::size_t> read_choice(const Context& c, const Place& at, const char* what,
                                                      std::span<const std::string_view> names);
+
+/// The value of an enumeration by its word, one of `allowed`.
+template <Worded E>
+[[nodiscard]] std::optional<E> read_word(const Context& c, const Place& at, const char* what,
+                                         std::initializer_list<E> allowed) {
+  std::vector<std::string_view> names;
+  for (const E value : allowed) names.emplace_back(to_string(value));
+  const std::optional<std::size_t> k = read_choice(c, at, what, names);
+  if (!k) return std::nullopt;
+  return allowed.begin()[*k];
+}
+
+/// The same, any of its values.
+template <Worded E>
+[[nodiscard]] std::optional<E> read_word(const Context& c, const Place& at, const char* what) {
+  std::vector<std::string_view> names;
+  for (const Word<E>& word : Words<E>::list) names.emplace_back(word.text);
+  const std::optional<std::size_t> k = read_choice(c, at, what, names);
+  if (!k) return std::nullopt;
+  return Words<E>::list[*k].value;
+}
 
 [[nodiscard]] std::optional<bool> read_boolean(const Context& c, const Place& at);
 

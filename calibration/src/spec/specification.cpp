@@ -22,7 +22,6 @@ constexpr std::array<std::string_view, 11> file_keys = {
 constexpr std::array<std::string_view, 6> option_keys = {"starts",   "seed",           "confidence",
                                                          "profiles", "profile_points", "max_iterations"};
 constexpr std::array<std::string_view, 3> reference_keys = {"value", "unit", "source"};
-constexpr std::array<std::string_view, 2> setting_names = {"plane_strain", "plane_stress"};
 
 class SpecificationReader {
  public:
@@ -56,8 +55,8 @@ class SpecificationReader {
     (void)text("notes", longest_text, "");
     spec.material_name = spec.name;
     if (const JsonValue* v = root.value().find("setting")) {
-      const auto k = read_choice(context_, Place(root, *v), "setting", setting_names);
-      spec.setting = k == 1u ? Setting::plane_stress : Setting::plane_strain;
+      const auto plane = {Setting::plane_strain, Setting::plane_stress};
+      spec.setting = read_word<Setting>(context_, Place(root, *v), "setting", plane).value_or(spec.setting);
     }
     const std::filesystem::path folder = origin_.parent_path();
     const ParameterEntries entries = read_parameters(context_, folder, root, spec);
@@ -112,13 +111,13 @@ class SpecificationReader {
   void read_references(const Place& at, Specification& spec) {
     if (!reader_.object(at, "values per parameter")) return;
     std::vector<std::string_view> names;
-    for (const ParameterInfo& p : parameter_info) names.push_back(p.name);
+    for (const ParameterInfo<double>& p : parameter_info) names.push_back(p.name);
     reader_.known_keys(at, names);
     for (const JsonValue& member : at.value().items) {
       const auto index = parameter_index(member.key);
       if (!index) continue;
       const Place place(at, member);
-      const Typical& typical = typical_parameter(member.key);
+      const Typical typical = typical_parameter(member.key);
       const auto x = read_written(context_, place, typical.quantity, {"source"});
       if (!x) continue;
       context_.judge(place, member.key, *x, typical);
@@ -149,7 +148,7 @@ class SpecificationReader {
     if (!set->initial_modulus) return problem("a data set of kind \"" + set->kind + "\" has no initial slope");
     const ModulusEstimate modulus = set->initial_modulus(spec.start());
     if (!modulus.failure.empty()) return problem(modulus.failure);
-    const Typical& typical = typical_parameter("young_modulus");
+    const Typical typical = typical_parameter("young_modulus");
     const Judgement j = judge("the modulus from the initial slope of \"" + set->name + '"',
                               {modulus.value, modulus.value, si_unit(typical.quantity)}, typical);
     if (j.verdict == Verdict::impossible) return problem(j.text + "; check the units of load and displacement");

@@ -12,18 +12,8 @@ namespace {
 using Kind = JsonValue::Kind;
 
 constexpr double default_relative_deviation = 0.05;
-constexpr std::array<StrengthKind, 7> kinds = {StrengthKind::uniaxial_tension,  StrengthKind::uniaxial_compression,
-                                               StrengthKind::direct_shear,      StrengthKind::triaxial_axial,
-                                               StrengthKind::triaxial_deviator, StrengthKind::brazilian_stress,
-                                               StrengthKind::brazilian_load};
 constexpr std::array<std::string_view, 7> point_keys = {"test",      "strength",  "pressure", "diameter",
                                                         "thickness", "deviation", "name"};
-
-std::vector<std::string_view> kind_names() {
-  std::vector<std::string_view> names;
-  for (const StrengthKind k : kinds) names.push_back(to_string(k));
-  return names;
-}
 
 bool has_pressure(StrengthKind k) {
   return k == StrengthKind::direct_shear || k == StrengthKind::triaxial_axial || k == StrengthKind::triaxial_deviator;
@@ -38,13 +28,8 @@ Typical typical_of(const StrengthPoint& point) {
       return typical::tensile_stress;
     case StrengthKind::direct_shear:
       return typical::shear_stress;
-    case StrengthKind::brazilian_load: {  // by the stress that it means
-      const double per_load = splitting_stress(1.0, point.diameter, point.thickness);
-      Typical t = typical::tensile_stress;
-      t.quantity = Quantity::force;
-      for (double* x : {&t.far_low, &t.low, &t.high, &t.far_high}) *x /= per_load;
-      return t;
-    }
+    case StrengthKind::brazilian_load:  // by the stress that it means
+      return scaled(typical::tensile_stress, Quantity::force, splitting_stress(1.0, point.diameter, point.thickness));
     default:
       return typical::compressive_stress;
   }
@@ -66,9 +51,7 @@ std::string label_of(const StrengthPoint& p) {
 std::optional<StrengthKind> read_kind(const Context& c, const Place& object) {
   const JsonValue* v = c.reader.required(object, "test");
   if (v == nullptr) return std::nullopt;
-  const auto k = read_choice(c, Place(object, *v), "test", kind_names());
-  if (!k) return std::nullopt;
-  return kinds[*k];
+  return read_word<StrengthKind>(c, Place(object, *v), "test");
 }
 
 void read_sizes(const Context& c, const Place& object, StrengthPoint& point) {

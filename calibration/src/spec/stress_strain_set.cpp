@@ -91,8 +91,8 @@ void read_stress_strain(const SetContext& s, const Place& set, DataSet& out) {
   const double largest = out.measured.cwiseAbs().maxCoeff();
   if (*measured >= 6) {
     Typical stress = typical::compressive_stress;
-    stress.low = typical::tensile_stress.low;
-    stress.far_low = typical::tensile_stress.far_low;
+    stress.range.low = typical::tensile_stress.range.low;
+    stress.range.far_low = typical::tensile_stress.range.far_low;
     c.judge(set, "the largest " + std::string(component_columns[*measured]), {largest, largest, "Pa"}, stress);
   }
   test.ordinate = {*measured < 6 ? TensorKind::strain : TensorKind::stress, static_cast<int>(*measured % 6)};

@@ -9,15 +9,24 @@
 namespace fpz::calibration::detail {
 namespace {
 
-constexpr std::array<Wanted, 4> columns = {Wanted{"opening", Quantity::length}, Wanted{"slip", Quantity::length},
-                                           Wanted{"normal_traction", Quantity::stress},
-                                           Wanted{"shear_traction", Quantity::stress}};
+constexpr std::array<Wanted, 4> columns = {Wanted{to_string(ZoneQuantity::normal_jump), Quantity::length},
+                                           Wanted{"slip", Quantity::length},
+                                           Wanted{to_string(ZoneQuantity::normal_traction), Quantity::stress},
+                                           Wanted{to_string(ZoneQuantity::shear_traction), Quantity::stress}};
 enum Column : std::size_t { opening, slip, normal_traction, shear_traction };
-constexpr std::array<std::string_view, 3> measured_names = {"normal_traction", "shear_traction", "opening"};
-constexpr std::array<Column, 3> measured_columns = {normal_traction, shear_traction, opening};
-constexpr std::array<ZoneQuantity, 3> quantities = {ZoneQuantity::normal_traction, ZoneQuantity::shear_traction,
-                                                    ZoneQuantity::normal_jump};
 constexpr std::array<const char*, 4> labels = {"Opening", "Slip", "Normal traction", "Shear traction"};
+
+Column column_of(ZoneQuantity q) {
+  switch (q) {
+    case ZoneQuantity::normal_traction:
+      return normal_traction;
+    case ZoneQuantity::shear_traction:
+      return shear_traction;
+    case ZoneQuantity::normal_jump:
+      break;
+  }
+  return opening;
+}
 
 bool has(const Place& set, std::string_view name) {
   for (const std::string_view key : {"columns", "values"}) {
@@ -46,9 +55,9 @@ void read_traction_separation(const SetContext& s, const Place& set, DataSet& ou
   const std::size_t before = c.reader.problems().size();
   const JsonValue* named = c.reader.required(set, "measured");
   if (named == nullptr) return;
-  const auto which = read_choice(c, Place(set, *named), "quantity", measured_names);
+  const auto which = read_word<ZoneQuantity>(c, Place(set, *named), "quantity");
   if (!which) return;
-  const Column measured = measured_columns[*which];
+  const Column measured = column_of(*which);
   const std::vector<Column> list = present(set, measured);
   const auto position = [&](Column column) -> std::optional<std::size_t> {
     const auto at = std::find(list.begin(), list.end(), column);
@@ -103,7 +112,7 @@ void read_traction_separation(const SetContext& s, const Place& set, DataSet& ou
     if (constant) row.normal_traction = *constant;
     test.rows.push_back(row);
   }
-  for (const Eigen::Index k : curve->used) test.points.push_back({static_cast<int>(k), quantities[*which]});
+  for (const Eigen::Index k : curve->used) test.points.push_back({static_cast<int>(k), *which});
   out.abscissa_axis = readable_axis(labels[abscissa], Quantity::length, largest_jump);
   out.value_axis = readable_axis(labels[measured], columns[measured].quantity, largest);
   out.model = [test](const Parameters& p, const Eigen::VectorXd&, bool derivatives) {

@@ -37,6 +37,16 @@ enum class Role {
   predict  ///< predicted from the parameters that the others give, and compared
 };
 
+}  // namespace fpz::calibration
+
+template <>
+struct fpz::Words<fpz::calibration::Role> {
+  using K = calibration::Role;
+  static constexpr Word<K> list[] = {{K::fit, "fit"}, {K::predict, "predict"}};
+};
+
+namespace fpz::calibration {
+
 struct DataSet {
   std::string name;
   std::string kind;    ///< as in the specification

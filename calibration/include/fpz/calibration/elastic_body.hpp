@@ -44,6 +44,19 @@ enum class Gauge : int {
 };
 inline constexpr int gauge_count = 3;
 
+}  // namespace fpz::calibration
+
+/// As columns of data name them.
+template <>
+struct fpz::Words<fpz::calibration::Gauge> {
+  using K = calibration::Gauge;
+  static constexpr Word<K> list[] = {{K::cmod, "cmod"},
+                                     {K::deflection_load_point, "deflection"},
+                                     {K::deflection_mid_depth, "deflection_mid_depth"}};
+};
+
+namespace fpz::calibration {
+
 /// The four maps at E = 1 Pa; also used for their derivatives with respect to nu. n ligament nodes from the notch tip
 /// up.
 struct CondensedBody {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "fpz/calibration/prediction.hpp"
+#include "fpz/words.hpp"
 
 namespace fpz::calibration {
 
@@ -30,6 +31,20 @@ struct FitParameter {
 };
 
 enum class LossKind { none, huber, soft_l1, cauchy, tukey };
+
+}  // namespace fpz::calibration
+
+template <>
+struct fpz::Words<fpz::calibration::LossKind> {
+  using K = calibration::LossKind;
+  static constexpr Word<K> list[] = {{K::none, "none"},
+                                     {K::huber, "huber"},
+                                     {K::soft_l1, "soft_l1"},
+                                     {K::cauchy, "cauchy"},
+                                     {K::tukey, "tukey"}};
+};
+
+namespace fpz::calibration {
 
 /// Robust loss (Ceres' rho) on residuals in units of their standard deviation.
 struct Loss {
@@ -125,6 +140,19 @@ enum class FitStatus {
   undetermined,   ///< converged, but the data leave some direction of the parameters open
   failed          ///< the forward models gave no prediction at the start
 };
+
+}  // namespace fpz::calibration
+
+template <>
+struct fpz::Words<fpz::calibration::FitStatus> {
+  using K = calibration::FitStatus;
+  static constexpr Word<K> list[] = {{K::ok, "ok"},
+                                     {K::not_converged, "not_converged"},
+                                     {K::undetermined, "undetermined"},
+                                     {K::failed, "failed"}};
+};
+
+namespace fpz::calibration {
 
 /// With FitStatus::failed only message, values (the start) and starts are filled.
 struct FitResult {

@@ -19,6 +19,20 @@ enum class FracturePath {
   direction                  ///< the jump grows along a fixed direction
 };
 
+}  // namespace fpz::calibration
+
+/// As the key "mode" of a specification names them.
+template <>
+struct fpz::Words<fpz::calibration::FracturePath> {
+  using K = calibration::FracturePath;
+  static constexpr Word<K> list[] = {{K::opening, "I"},
+                                     {K::shear_at_normal_traction, "II"},
+                                     {K::shear_at_fixed_opening, "II_fixed_opening"},
+                                     {K::direction, "direction"}};
+};
+
+namespace fpz::calibration {
+
 /// One measured fracture energy: what was done to the zone.
 ///
 /// The zone starts at onset, on the yield surface. Where on it is not a property of the jump path, so it must be

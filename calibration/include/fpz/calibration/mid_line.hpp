@@ -51,8 +51,7 @@ class MidLine {
   [[nodiscard]] const Eigen::VectorXd& jump() const { return now_.jump; }
   /// Closing traction of the ligament nodes, Pa; of tied nodes from equilibrium.
   [[nodiscard]] Eigen::VectorXd traction() const;
-  /// Change of load and jumps per change of the reading in equilibrium (N/m; -).
-  [[nodiscard]] double load_rate() const { return now_.load_rate; }
+  /// Change of the jumps per change of the reading in equilibrium.
   [[nodiscard]] const Eigen::VectorXd& jump_rate() const { return now_.jump_rate; }
   /// dP at fixed reading per unit of each PathInput.
   [[nodiscard]] const Eigen::VectorXd& load_derivatives() const { return now_.load_derivatives; }
@@ -64,8 +63,6 @@ class MidLine {
   [[nodiscard]] double crack_length() const;
   /// Reading at which the first node cracks, m.
   [[nodiscard]] double elastic_limit() const;
-  [[nodiscard]] int steps() const { return steps_; }
-  [[nodiscard]] int factorisations() const { return factorisations_; }
 
  private:
   static constexpr int own_jump = path_input_count;  ///< seed of the node's own jump
@@ -123,7 +120,6 @@ class MidLine {
   State now_;
   double largest_load_ = 0.0;
   int steps_ = 0;
-  int factorisations_ = 0;
   Eigen::PartialPivLU<Eigen::MatrixXd> lu_;  ///< of the last tangent with the load eliminated
   bool unique_ = true;                       ///< its determinant is positive
   Status law_status_ = Status::ok;

@@ -5,18 +5,15 @@
 #include <string>
 #include <string_view>
 
-#include "fpz/calibration/prediction.hpp"
 #include "fpz/calibration/units.hpp"
+#include "fpz/parameters.hpp"
 
 namespace fpz::calibration {
 
-/// What is met, and what is out of the question. SI units; far_low < low < high < far_high.
+/// A range of values (SI) of one quantity.
 struct Typical {
   Quantity quantity = Quantity::number;
-  double far_low = 0.0;
-  double low = 0.0;
-  double high = 0.0;
-  double far_high = 0.0;
+  Plausible range;
 };
 
 enum class Verdict { plausible, doubtful, impossible };
@@ -37,22 +34,23 @@ struct Written {
 /// impossible. Where the number in another unit would be typical, the message says so.
 [[nodiscard]] Judgement judge(std::string_view what, const Written& value, const Typical& typical);
 
-/// Ranges of the material parameters, by name as in material files (density included). Throws std::invalid_argument
-/// for an unknown name.
-[[nodiscard]] const Typical& typical_parameter(std::string_view name);
+/// The range over `factor`, of another quantity: loads by the stress that they mean.
+[[nodiscard]] Typical scaled(const Typical& typical, Quantity quantity, double factor);
+
+/// The range of a parameter, by its name in the table of parameters. Throws std::invalid_argument for an unknown name.
+[[nodiscard]] Typical typical_parameter(std::string_view name);
 
 namespace typical {
-inline constexpr Typical fracture_energy{Quantity::energy_per_area, 0.02, 0.5, 1e3, 1e5};
-inline constexpr Typical toughness{Quantity::toughness, 1e3, 1e4, 6e6, 6e7};
-inline constexpr Typical opening{Quantity::length, 1e-9, 1e-7, 3e-3, 1e-2};         ///< largest jump, CMOD
-inline constexpr Typical specimen_size{Quantity::length, 1e-3, 5e-3, 3.0, 20.0};    ///< depth, span, radius
-inline constexpr Typical small_size{Quantity::length, 1e-4, 5e-4, 1.0, 10.0};       ///< notch, thickness, roller
-inline constexpr Typical bending_stress{Quantity::stress, 2e4, 2e5, 5e7, 5e8};      ///< nominal, at the peak
-inline constexpr Typical tensile_stress{Quantity::stress, 1e4, 5e4, 3e7, 1e8};      ///< tractions, tensile strengths
-inline constexpr Typical compressive_stress{Quantity::stress, 1e5, 5e5, 1e9, 5e9};  ///< peaks in compression
-inline constexpr Typical pressure{Quantity::stress, 1e3, 1e4, 5e8, 5e9};            ///< confinement
-inline constexpr Typical shear_stress{Quantity::stress, 1e4, 5e4, 3e8, 2e9};        ///< direct shear
-inline constexpr Typical rve_length{Quantity::length, 1e-6, 1e-5, 0.5, 10.0};
+inline constexpr Typical fracture_energy{Quantity::energy_per_area, {0.02, 0.5, 1e3, 1e5}};
+inline constexpr Typical toughness{Quantity::toughness, {1e3, 1e4, 6e6, 6e7}};
+inline constexpr Typical opening{Quantity::length, {1e-9, 1e-7, 3e-3, 1e-2}};         ///< largest jump, CMOD
+inline constexpr Typical specimen_size{Quantity::length, {1e-3, 5e-3, 3.0, 20.0}};    ///< depth, span, radius
+inline constexpr Typical small_size{Quantity::length, {1e-4, 5e-4, 1.0, 10.0}};       ///< notch, thickness, roller
+inline constexpr Typical bending_stress{Quantity::stress, {2e4, 2e5, 5e7, 5e8}};      ///< nominal, at the peak
+inline constexpr Typical tensile_stress{Quantity::stress, {1e4, 5e4, 3e7, 1e8}};      ///< tractions, tensile strengths
+inline constexpr Typical compressive_stress{Quantity::stress, {1e5, 5e5, 1e9, 5e9}};  ///< peaks in compression
+inline constexpr Typical pressure{Quantity::stress, {1e3, 1e4, 5e8, 5e9}};            ///< confinement
+inline constexpr Typical shear_stress{Quantity::stress, {1e4, 5e4, 3e8, 2e9}};        ///< direct shear
 }  // namespace typical
 
 }  // namespace fpz::calibration

@@ -4,15 +4,11 @@
 #include <filesystem>
 #include <functional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "fpz/calibration/calibration.hpp"
 
 namespace fpz::calibration {
-
-/// "ok", "not_converged", "undetermined" or "failed".
-[[nodiscard]] std::string_view to_string(FitStatus status);
 
 /// Text of material.json: complete, with the key "provenance". Its parameters are read by io::read_material_file.
 [[nodiscard]] std::string material_json(const Calibration& calibration);

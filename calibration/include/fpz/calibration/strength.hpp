@@ -3,7 +3,6 @@
 // Inputs and results follow the laboratory: compressive stresses are positive numbers here, as are the strengths.
 #pragma once
 
-#include <string_view>
 #include <vector>
 
 #include "fpz/calibration/prediction.hpp"
@@ -20,7 +19,21 @@ enum class StrengthKind {
   brazilian_load         ///< splitting load P of a disc, N
 };
 
-[[nodiscard]] std::string_view to_string(StrengthKind k);
+}  // namespace fpz::calibration
+
+template <>
+struct fpz::Words<fpz::calibration::StrengthKind> {
+  using K = calibration::StrengthKind;
+  static constexpr Word<K> list[] = {{K::uniaxial_tension, "uniaxial_tension"},
+                                     {K::uniaxial_compression, "uniaxial_compression"},
+                                     {K::direct_shear, "direct_shear"},
+                                     {K::triaxial_axial, "triaxial_axial"},
+                                     {K::triaxial_deviator, "triaxial_deviator"},
+                                     {K::brazilian_stress, "brazilian_stress"},
+                                     {K::brazilian_load, "brazilian_load"}};
+};
+
+namespace fpz::calibration {
 
 /// One specimen.
 struct StrengthPoint {

@@ -21,6 +21,18 @@ struct ZoneRow {
 
 enum class ZoneQuantity { normal_traction, shear_traction, normal_jump };
 
+}  // namespace fpz::calibration
+
+/// As columns of data name them.
+template <>
+struct fpz::Words<fpz::calibration::ZoneQuantity> {
+  using K = calibration::ZoneQuantity;
+  static constexpr Word<K> list[] = {
+      {K::normal_traction, "normal_traction"}, {K::shear_traction, "shear_traction"}, {K::normal_jump, "opening"}};
+};
+
+namespace fpz::calibration {
+
 /// A measured value: what was measured at which row (counted from 0).
 struct ZonePoint {
   int row = 0;
