@@ -9,6 +9,7 @@
 #include "jet.hpp"
 #include "softening_quadrature.hpp"
 #include "words.hpp"
+#include "zone.hpp"
 
 namespace fpz::calibration {
 namespace {
@@ -191,7 +192,7 @@ Work<T> pressed_work(const CohesiveLaw<T>& law, const Vec<double, 2>& direction,
   const double length = end ? *end : 4.0 * value(law.delta0);
   for (int k = 0; k < 1000; ++k) {
     const Vec<T, 2> du = convert<T>(Vec<double, 2>(direction * length));
-    const Report report = cohesive_update<T, 2>(law, options, zone, du, zone);
+    const Report report = move_zone(law, options, zone, du, zone);
     if (!report.ok()) {
       return no_work<T>("the zone cannot be followed along this direction (" + std::string(to_string(report.status)) +
                         ")");

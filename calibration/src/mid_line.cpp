@@ -6,6 +6,9 @@
 #include <sstream>
 #include <utility>
 
+#include "fpz/cohesive_law.hpp"
+#include "zone.hpp"
+
 namespace fpz::calibration {
 namespace {
 
@@ -36,18 +39,6 @@ CohesiveState<Slope, 1> fresh_zone(const CohesiveLaw<P>& law) {
 }
 
 const char* name(Gauge g) { return g == Gauge::cmod ? "CMOD" : "deflection"; }
-
-/// The zone at the given jump, by the library's implicit integrator, which is exact in pure opening.
-template <class Slope, class P>
-[[nodiscard]] Status open_to(const CohesiveLaw<P>& law, const CohesiveState<Slope, 1>& begin, const Slope& jump,
-                             CohesiveState<Slope, 1>& end) {
-  if (!std::isfinite(value(jump))) return Status::invalid_input;
-  Options options;
-  options.method = Method::implicit;
-  const SeriesCompliance<P> rigid{P(0.0), P(0.0)};
-  const Vec<Slope, 1> target = Vec<Slope, 1>::Constant(jump);
-  return integrate_cohesive(law, rigid, options, begin, begin.jump, target, end).status;
-}
 
 }  // namespace
 
@@ -146,7 +137,7 @@ bool MidLine::evaluate(const State& next, System& s) {
     const auto row = static_cast<Eigen::Index>(k);
     const CohesiveState<double, 1>& begin = now_.cracked[node] ? now_.zones[node] : fresh;
     CohesiveState<Tangent, 1> end;
-    law_status_ = open_to(law_, lift<Tangent>(begin), Tangent::seed(s.jump[row], 0), end);
+    law_status_ = open_zone(law_, lift<Tangent>(begin), Tangent::seed(s.jump[row], 0), end);
     if (law_status_ != Status::ok) return false;
     s.zones[k] = lift<double>(end);
     s.tangent[row] = end.traction[0].grad[0];
@@ -259,7 +250,7 @@ bool MidLine::differentiate(State& next, const System& s) {
   for (Eigen::Index k = 0; k < m; ++k) {
     const auto node = static_cast<std::size_t>(s.nodes[static_cast<std::size_t>(k)]);
     const SlopeZone begin = now_.cracked[node] ? now_.slopes[node] : fresh_zone<Slope>(slope_law_);
-    law_status_ = open_to(slope_law_, begin, Slope::seed(s.jump[k], own_jump), next.slopes[node]);
+    law_status_ = open_zone(slope_law_, begin, Slope::seed(s.jump[k], own_jump), next.slopes[node]);
     if (law_status_ != Status::ok) return false;
     const auto& slope = next.slopes[node].traction[0].grad;
     right.row(k) -= s.area[k] * slope.head<path_input_count>().transpose();

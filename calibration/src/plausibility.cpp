@@ -46,8 +46,9 @@ Judgement judge(std::string_view what, const Written& value, const Typical& t) {
   const bool far = !(value.si >= t.range.far_low && value.si <= t.range.far_high);
   j.verdict = far ? Verdict::impossible : Verdict::doubtful;
   j.text = std::string(what) + " = " + with_unit(value.number, value.unit) + " is " + (far ? "far " : "") +
-           (value.si < t.range.low ? "below" : "above") + (far ? " any" : " the usual") + " value for rock and concrete (" +
-           with_unit(t.range.low, "") + " to " + with_unit(t.range.high, si_unit(t.quantity)) + ")";
+           (value.si < t.range.low ? "below" : "above") + (far ? " any" : " the usual") +
+           " value for rock and concrete (" + with_unit(t.range.low, "") + " to " +
+           with_unit(t.range.high, si_unit(t.quantity)) + ")";
   const Unit* unit = value.si > 0.0 ? meant_unit(value, t) : nullptr;
   if (unit != nullptr) {
     j.text += "; " + with_unit(value.number, unit->name) + " was probably meant: write " +

@@ -10,6 +10,7 @@
 #include "fpz/calibration/onset_traction.hpp"
 #include "fpz/cohesive_law.hpp"
 #include "jet.hpp"
+#include "zone.hpp"
 
 namespace fpz::calibration {
 namespace {
@@ -89,7 +90,7 @@ class ZoneRun {
     if (row.normal_traction) return move_under(*row.normal_traction, shear_jump);
     Vec<T, 2> du;
     du << reference_ + *row.normal_jump - zone_.jump[0], shear_jump - zone_.jump[1];
-    return cohesive_update<T, 2>(law_, options_, zone_, du, zone_);
+    return move_zone(law_, options_, zone_, du, zone_);
   }
 
   template <class S, class P>
@@ -98,7 +99,7 @@ class ZoneRun {
     Vec<S, 2> d0, d1;
     d0 << begin.jump[0] + spring * begin.traction[0], begin.jump[1];
     d1 << end, S(shear_jump);
-    return integrate_cohesive(law, SeriesCompliance<P>{spring, P(0.0)}, options_, begin, d0, d1, out);
+    return follow_zone(law, SeriesCompliance<P>{spring, P(0.0)}, options_, begin, d0, d1, out);
   }
 
   /// Finds where the far end of the spring has to go. The zone is much stiffer, so taking over its jump converges fast;

@@ -2,10 +2,11 @@
 
 #include <ceres/ceres.h>
 
-#include <Eigen/QR>
 #include <cmath>
 #include <limits>
 #include <memory>
+
+#include "decompositions.hpp"
 
 namespace fpz::calibration::detail {
 namespace {
@@ -168,11 +169,7 @@ double newton_decrement(const LeastSquares& problem, const Minimum& m, const std
     if (!held[static_cast<std::size_t>(k)]) columns.push_back(k);
   }
   if (columns.empty()) return 0.0;
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
-  qr.setThreshold(1e-9);
-  qr.compute(stack.jacobian(Eigen::all, columns));
-  const Eigen::VectorXd rotated = qr.householderQ().adjoint() * stack.residuals;
-  return rotated.head(qr.rank()).squaredNorm();
+  return squared_projection(stack.jacobian(Eigen::all, columns), stack.residuals, 1e-9);
 }
 
 /// Prediction, cost and gradient at m.z; false when there is no prediction.

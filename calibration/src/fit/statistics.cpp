@@ -1,7 +1,5 @@
 #include "statistics.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/fisher_f.hpp>
@@ -10,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "decompositions.hpp"
 #include "words.hpp"
 
 namespace fpz::calibration::detail {
@@ -20,13 +19,13 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// (A' A)^+ of a tall matrix, without forming A' A.
 Eigen::MatrixXd inverse_gram(const Eigen::MatrixXd& a) {
   if (a.cols() == 0) return {};  // all parameters at bounds
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(a, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  const Eigen::VectorXd& s = svd.singularValues();
+  const SingularValues svd = singular_values(a);
+  const Eigen::VectorXd& s = svd.values;
   Eigen::VectorXd inverse = Eigen::VectorXd::Zero(s.size());
   for (Eigen::Index k = 0; k < s.size(); ++k) {
     if (s[k] > negligible * s[0]) inverse[k] = 1.0 / (s[k] * s[k]);
   }
-  return svd.matrixV() * inverse.asDiagonal() * svd.matrixV().transpose();
+  return svd.right * inverse.asDiagonal() * svd.right.transpose();
 }
 
 /// The sets' Jacobians times their factors, on top of each other.
@@ -234,26 +233,25 @@ double region_freedom(const Certainty& c) {
   // Directions x = C^(1/2) v in which the sets with few degrees of freedom count most and least.
   const Eigen::VectorXd scale = c.covariance.diagonal().cwiseSqrt();
   const Eigen::VectorXd safe = (scale.array() > 0.0).select(scale.cwiseInverse(), 0.0);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> equilibrated(safe.asDiagonal() * c.covariance *
-                                                                    safe.asDiagonal());
-  const double largest = equilibrated.eigenvalues().maxCoeff();
+  const Eigenpairs equilibrated = eigenpairs(safe.asDiagonal() * c.covariance * safe.asDiagonal());
+  const double largest = equilibrated.values.maxCoeff();
   Eigen::VectorXd root = Eigen::VectorXd::Zero(scale.size());
   for (Eigen::Index i = 0; i < root.size(); ++i) {
-    const double e = equilibrated.eigenvalues()[i];
+    const double e = equilibrated.values[i];
     if (e > negligible * negligible * largest) root[i] = 1.0 / std::sqrt(e);
   }
-  const Eigen::MatrixXd whitening = safe.asDiagonal() * equilibrated.eigenvectors() * root.asDiagonal();
+  const Eigen::MatrixXd whitening = safe.asDiagonal() * equilibrated.vectors * root.asDiagonal();
   Eigen::MatrixXd uncertain = Eigen::MatrixXd::Zero(root.size(), root.size());
   for (std::size_t k = 0; k < c.spread.size(); ++k) {
     uncertain += whitening.transpose() * c.spread[k] * whitening / c.noise_freedom[static_cast<Eigen::Index>(k)];
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> directions(uncertain);
+  const Eigenpairs directions = eigenpairs(uncertain);
   // Along each the squared deviation is F(1, nu); an F with the mean of their sum stands for it (Fai and Cornelius
   // 1996).
   double mean = 0.0;
   double least = infinity;
   for (Eigen::Index i = 0; i < root.size(); ++i) {
-    const double nu = freedom(c, whitening * directions.eigenvectors().col(i));
+    const double nu = freedom(c, whitening * directions.vectors.col(i));
     least = std::min(least, nu);
     mean += std::isfinite(nu) ? nu / (nu - 2.0) : 1.0;
   }

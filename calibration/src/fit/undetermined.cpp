@@ -1,10 +1,10 @@
 #include "undetermined.hpp"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "decompositions.hpp"
 #include "statistics.hpp"
 #include "words.hpp"
 
@@ -48,8 +48,8 @@ OpenDirections open_directions(const Eigen::MatrixXd& jacobian) {
   if (n == 0) return out;
   Eigen::MatrixXd a = Eigen::MatrixXd::Zero(std::max(jacobian.rows(), n), n);
   a.topRows(jacobian.rows()) = jacobian;
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(a, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  out.singular_values = svd.singularValues();
+  const SingularValues svd = singular_values(a);
+  out.singular_values = svd.values;
   const Eigen::VectorXd& s = out.singular_values;
   const double zero = negligible * s[0];
   Eigen::Index null = 0;
@@ -57,10 +57,10 @@ OpenDirections open_directions(const Eigen::MatrixXd& jacobian) {
     if (s[k] <= zero) {
       ++null;
     } else if (s[k] < 1.0) {
-      out.directions.push_back({svd.matrixV().col(k), s[k], false});
+      out.directions.push_back({svd.right.col(k), s[k], false});
     }
   }
-  const Eigen::MatrixXd basis = sparse_basis(svd.matrixV().rightCols(null));
+  const Eigen::MatrixXd basis = sparse_basis(svd.right.rightCols(null));
   for (Eigen::Index k = 0; k < null; ++k) {
     out.directions.push_back({basis.col(k), (jacobian * basis.col(k)).norm(), true});
   }

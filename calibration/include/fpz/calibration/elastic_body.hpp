@@ -50,9 +50,8 @@ inline constexpr int gauge_count = 3;
 template <>
 struct fpz::Words<fpz::calibration::Gauge> {
   using K = calibration::Gauge;
-  static constexpr Word<K> list[] = {{K::cmod, "cmod"},
-                                     {K::deflection_load_point, "deflection"},
-                                     {K::deflection_mid_depth, "deflection_mid_depth"}};
+  static constexpr Word<K> list[] = {
+      {K::cmod, "cmod"}, {K::deflection_load_point, "deflection"}, {K::deflection_mid_depth, "deflection_mid_depth"}};
 };
 
 namespace fpz::calibration {

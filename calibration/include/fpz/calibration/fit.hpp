@@ -37,11 +37,8 @@ enum class LossKind { none, huber, soft_l1, cauchy, tukey };
 template <>
 struct fpz::Words<fpz::calibration::LossKind> {
   using K = calibration::LossKind;
-  static constexpr Word<K> list[] = {{K::none, "none"},
-                                     {K::huber, "huber"},
-                                     {K::soft_l1, "soft_l1"},
-                                     {K::cauchy, "cauchy"},
-                                     {K::tukey, "tukey"}};
+  static constexpr Word<K> list[] = {
+      {K::none, "none"}, {K::huber, "huber"}, {K::soft_l1, "soft_l1"}, {K::cauchy, "cauchy"}, {K::tukey, "tukey"}};
 };
 
 namespace fpz::calibration {
@@ -146,10 +143,8 @@ enum class FitStatus {
 template <>
 struct fpz::Words<fpz::calibration::FitStatus> {
   using K = calibration::FitStatus;
-  static constexpr Word<K> list[] = {{K::ok, "ok"},
-                                     {K::not_converged, "not_converged"},
-                                     {K::undetermined, "undetermined"},
-                                     {K::failed, "failed"}};
+  static constexpr Word<K> list[] = {
+      {K::ok, "ok"}, {K::not_converged, "not_converged"}, {K::undetermined, "undetermined"}, {K::failed, "failed"}};
 };
 
 namespace fpz::calibration {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "fpz/calibration/elastic_body.hpp"
-#include "fpz/cohesive_law.hpp"
+#include "fpz/cohesive_state.hpp"
 
 namespace fpz::calibration {
 
@@ -37,6 +37,9 @@ struct Control {
 /// Cohesive crack on one condensed body. Copies nothing: body and parameters must outlive it.
 class MidLine {
  public:
+  /// A number with its derivatives: with respect to the inputs, and to the node's own jump (last).
+  using Slope = Dual<path_input_count + 1>;
+
   /// `derivatives` needs condensation.d_nu.
   MidLine(const Condensation& condensation, const Parameters& parameters, const Control& control, bool derivatives);
 
@@ -66,7 +69,6 @@ class MidLine {
 
  private:
   static constexpr int own_jump = path_input_count;  ///< seed of the node's own jump
-  using Slope = Dual<path_input_count + 1>;
   using Zone = CohesiveState<double, 1>;
   using SlopeZone = CohesiveState<Slope, 1>;
 

@@ -24,13 +24,11 @@ enum class StrengthKind {
 template <>
 struct fpz::Words<fpz::calibration::StrengthKind> {
   using K = calibration::StrengthKind;
-  static constexpr Word<K> list[] = {{K::uniaxial_tension, "uniaxial_tension"},
-                                     {K::uniaxial_compression, "uniaxial_compression"},
-                                     {K::direct_shear, "direct_shear"},
-                                     {K::triaxial_axial, "triaxial_axial"},
-                                     {K::triaxial_deviator, "triaxial_deviator"},
-                                     {K::brazilian_stress, "brazilian_stress"},
-                                     {K::brazilian_load, "brazilian_load"}};
+  static constexpr Word<K> list[] = {
+      {K::uniaxial_tension, "uniaxial_tension"},   {K::uniaxial_compression, "uniaxial_compression"},
+      {K::direct_shear, "direct_shear"},           {K::triaxial_axial, "triaxial_axial"},
+      {K::triaxial_deviator, "triaxial_deviator"}, {K::brazilian_stress, "brazilian_stress"},
+      {K::brazilian_load, "brazilian_load"}};
 };
 
 namespace fpz::calibration {

@@ -18,8 +18,8 @@ struct Unit {
 /// The SI unit (degrees for angles, "" for plain numbers).
 [[nodiscard]] std::string_view si_unit(Quantity q);
 
-/// The quantity with this SI unit, e.g. of a row of the table of parameters. Throws std::invalid_argument for a unit that
-/// none has.
+/// The quantity with this SI unit, e.g. of a row of the table of parameters. Throws std::invalid_argument for a unit
+/// that none has.
 [[nodiscard]] Quantity quantity_of(std::string_view si_unit);
 
 /// All units known for a quantity, SI first.
