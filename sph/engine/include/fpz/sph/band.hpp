@@ -20,8 +20,8 @@
 
 namespace fpz::sph {
 
-/// Part of the width above that gives G on the notched beam (see README, "Measured"): not all of the particles in the
-/// band open to the end, because bonds are cut before and because one row leads.
+/// Part of the width above that gives G on the notched beam (docs/particle-method-measurements.md): not all of the
+/// particles in the band open to the end, because bonds are cut before and because one row leads.
 inline constexpr double band_factor = 0.96;
 
 /// H, m, of a particle of size `size` = V^(1/Dim) (m), which cracks with the unit normal `normal`, from the offsets of
