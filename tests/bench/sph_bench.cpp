@@ -25,9 +25,8 @@ constexpr double spacing = 1e-3;
 
 double seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
-/// A bar pulled slowly at one end, far below its strength.
-/// `scale` times as long and as high.
-RunSetup<2> specimen(const Options<2>& options, int scale = 1) {
+/// A bar pulled slowly at one end, far below its strength; `scale` times as long and as high.
+RunSetup<2> bar(const Options<2>& options, int scale = 1) {
   RunSetup<2> s;
   s.options = options;
   s.parameters = {45e9, 0.24, 2400.0, 2.9e6, 5e6, 37.0, 5.0, 16.4e-6, 1e14, 1e11, 2e-3};
@@ -48,7 +47,7 @@ RunSetup<2> specimen(const Options<2>& options, int scale = 1) {
 
 /// Particle-steps per second, best round; 0 after a failure.
 double rate(const Options<2>& options, int rounds, int steps) {
-  Simulation<2> run(specimen(options));
+  Simulation<2> run(bar(options));
   double best = 0.0;
   for (int r = 0; r < rounds; ++r) {
     const double begin = seconds();
@@ -75,7 +74,7 @@ bool thread_scaling(int rounds, long particle_steps) {
     for (int n = 1; n <= most; ++n) {
       Options<2> o;
       o.threads = n;
-      runs.push_back(std::make_unique<Simulation<2>>(specimen(o, scale)));
+      runs.push_back(std::make_unique<Simulation<2>>(bar(o, scale)));
     }
     std::vector<double> best(runs.size(), 0.0);
     for (int r = 0; r < rounds; ++r) {
@@ -134,20 +133,6 @@ double lammps_rate() {
   return best;
 }
 
-const char* name(InstructionSet i) {
-  switch (i) {
-    case InstructionSet::best:
-      return "best";
-    case InstructionSet::baseline:
-      return "baseline";
-    case InstructionSet::avx2:
-      return "avx2";
-    case InstructionSet::avx512:
-      return "avx512";
-  }
-  return "";
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -169,16 +154,14 @@ int main(int argc, char** argv) {
         const double r = rate(o, rounds, steps);
         if (r == 0.0) return 1;
         if (c == Configuration::reference) reference = std::max(reference, r);
-        std::printf("%-12s %-9s %-8s %8.2f\n", c == Configuration::reference ? "reference" : "updated",
-                    m == MomentumForm::adjoint ? "adjoint" : "paper", name(i), r * 1e-6);
+        std::printf("%-12s %-9s %-8s %8.2f\n", fpz::to_string(c), fpz::to_string(m), fpz::to_string(i), r * 1e-6);
       }
     }
   }
   for (const Configuration c : {Configuration::reference, Configuration::updated}) {
     Options<2> o;
     o.configuration = c;
-    std::printf("%-12s adjoint   all threads %8.2f\n", c == Configuration::reference ? "reference" : "updated",
-                rate(o, rounds, steps) * 1e-6);
+    std::printf("%-12s adjoint   all threads %8.2f\n", fpz::to_string(c), rate(o, rounds, steps) * 1e-6);
   }
   if (quick) return 0;
   const double peri = lammps_rate();

@@ -1,5 +1,5 @@
-// How the deformation of the body is followed: which bonds its particles have, and what strain and force are. Two rooms,
-// reference_body and updated_body, chosen in make_body().
+// How the deformation of the body is followed: which bonds its particles have, and what strain and force are. Two
+// rooms, reference_body and updated_body, chosen in make_body().
 #pragma once
 
 #include <memory>

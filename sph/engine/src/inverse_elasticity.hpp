@@ -20,8 +20,7 @@ template <int Dim>
   const double trace = stress.template head<Dim>().sum();
   const double lambda = bulk.lambda;
   const double mu = bulk.mu;
-  return volume * 0.25 / mu *
-         (double_dot<Dim>(stress, stress) - lambda / (Dim * lambda + 2.0 * mu) * trace * trace);
+  return volume * 0.25 / mu * (double_dot<Dim>(stress, stress) - lambda / (Dim * lambda + 2.0 * mu) * trace * trace);
 }
 
 }  // namespace fpz::sph::detail

@@ -1,6 +1,7 @@
-// The time integration (eq 22-31): positions, stresses and densities at full steps n, velocities half a step ahead. The
-// stress and the density are advanced with the velocity between, so what eq 24, 27, 28 and 30 extrapolate is exact here;
-// only the velocity that the viscosity sees is extrapolated (eq 29, in the drift).
+// The time integration (eq 22 to eq 31): positions, stresses and densities at full steps n, velocities half a step
+// ahead. Stress and density go from full step to full step with the velocity between: one step takes the place of the
+// half steps of the start (eq 22, eq 24), the full ones (eq 25, eq 27) and the extrapolations (eq 28, eq 30). Only the
+// velocity that the viscosity sees is extrapolated (eq 29, in the drift).
 #include <cmath>
 
 #include "engine.hpp"
@@ -18,7 +19,7 @@ template <int Dim>
 Outcome Engine<Dim>::step() {
   if (!run.started) start();
   ++run.steps;
-  // 1. Positions at n + 1 (eq 31); densities, stresses and cracks there (eq 19, 21).
+  // 1. Positions at n + 1 (eq 31); densities, stresses and cracks there (eq 19, eq 21).
   const Outcome outcome = body->advance();
   if (!outcome.ok()) return outcome;
   // 2. Forces at n + 1 (eq 20), velocities at n + 3/2 (eq 26).

@@ -63,7 +63,7 @@ FPZ_LANE void difference_sums(const V& v, Index b, const double* ux, const doubl
 }
 
 /// eq 21 in the undeformed body: velocity gradient (corrected, eq 17) -> F, its rotation and stretch, elastic stress
-/// and flux of the force; flags the particles that the library must update.
+/// (in place of eq 24, eq 27 and eq 30) and flux of the force; flags the particles that the library must update.
 void gradient_reference(const V& v, Index first, Index last) {
   for (Index b = first; b < last; ++b) {
     const Index o = b * n;
@@ -225,8 +225,9 @@ void force_zero_energy(const V& v, Index first, Index last) {
   }
 }
 
-/// Kernel gradients of the present positions, L_i of eq 18, velocity gradient of eq 21 -> density (eq 19, 22, 25: in
-/// one step, exact for a linear motion), rotated stress (eq 21, 24, 27) and flux; flags what the library must update.
+/// Kernel gradients of the present positions, L_i of eq 18, velocity gradient of eq 21 -> density (eq 19) and rotated
+/// stress (eq 21) from n to n + 1, exact for a linear motion: in place of eq 22, eq 25 and eq 28 for the density and of
+/// eq 24, eq 27 and eq 30 for the stress. Flux of the force; flags what the library must update.
 template <Kernel K, bool PaperMomentum>
 void gradient_updated(const V& v, Index first, Index last) {
   const double *x = v.position[0], *y = v.position[1], *ux = v.velocity[0], *uy = v.velocity[1];

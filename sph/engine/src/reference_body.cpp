@@ -68,7 +68,7 @@ void ReferenceBody<Dim>::set_flux(std::size_t i, const Symmetric& stress) {
   p.flux[3][i] = t.yy;
 }
 
-/// eq 17-18: kernel gradients of the undeformed body and their correction L_i.
+/// eq 17, eq 18: kernel gradients of the undeformed body and their correction L_i.
 template <int Dim>
 void ReferenceBody<Dim>::write_row(std::size_t i) {
   RunData<Dim>& run = this->run_;

@@ -1,4 +1,5 @@
-// Damps the velocities that the gradient of the undeformed body does not see (they alternate from particle to particle).
+// Damps the velocities that the gradient of the undeformed body does not see (they alternate from particle to
+// particle).
 #pragma once
 
 #include "bonds.hpp"
@@ -6,8 +7,8 @@
 
 namespace fpz::sph::detail {
 
-/// Acts on the velocities of the full step n, every `interval_` steps with the force of all of them. There it only takes
-/// from the leap-frog's energy, so it is stable while a relative velocity does not change its sign.
+/// Acts on the velocities of the full step n, every `interval_` steps with the force of all of them. There it only
+/// takes from the leap-frog's energy, so it is stable while a relative velocity does not change its sign.
 template <int Dim>
 class ZeroEnergyControl {
  public:
