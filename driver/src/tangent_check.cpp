@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <limits>
 
+#include "fpz/driver/dimension.hpp"
 #include "point_run.hpp"
 
 namespace fpz::driver {
@@ -92,7 +93,7 @@ TangentCheck check(const Test& test, const TangentCheckOptions& options) {
       out.worst_time = time;
     }
   };
-  const Result result = PointRun<Dim>(test, {}, hook).run();
+  const Result result = run_point<Dim>(test, {}, StepHook<Dim>(hook));
   out.run_status = result.status;
   out.run_message = result.message;
   return out;
