@@ -5,7 +5,7 @@
 
 #include "admissible.hpp"
 #include "fpz/calibration/onset_traction.hpp"
-#include "fpz/cohesive_law.hpp"
+#include "fpz/energy.hpp"
 #include "jet.hpp"
 #include "softening_quadrature.hpp"
 #include "words.hpp"
@@ -43,27 +43,32 @@ Vec<double, 2> unit_direction(double angle_deg) {
 ///
 /// With tau_s = A sinh x the rate problem (docs/equations.md) is one autonomous equation, dx/ds = N(x)/Q(x), that runs
 /// into the zero x* of N = sine m_n - cosine tau_s, where the flow is parallel to the jump. In
-/// z = ln((x0 - x*)/(x - x*)) nothing is singular: x = x* + (x0 - x*) exp(-z), and N/(x - x*) has a closed form.
+/// z = ln((x0 - x*)/(x - x*)) nothing is singular: x = x* + (x0 - x*) exp(-z), and N/(x - x*) has a closed form. For
+/// exponential softening, whose end is then an exponential too.
 template <class T>
 class OpenZone {
  public:
   OpenZone(const CohesiveLaw<T>& law, const Vec<double, 2>& direction, const Vec<T, 2>& onset)
-      : law_(law), cosine_(direction[0]), sine_(direction[1]) {
+      : law_(law),
+        exponential_(std::get<ExponentialSoftening<T>>(law.softening.law)),
+        cosine_(direction[0]),
+        sine_(direction[1]) {
     using std::log;
     using std::sqrt;
     // N = 0 is quadratic in exp(x); one root is positive because cosine > sine flow_1.
-    const T a = 0.5 * law.apex * (cosine_ - sine_ * law.flow_1);
-    const T b = sine_ * law.flow_0;
-    const T c = 0.5 * law.apex * (cosine_ + sine_ * law.flow_1);
+    const T a = 0.5 * law.surface.apex * (cosine_ - sine_ * law.surface.flow_1);
+    const T b = sine_ * law.surface.flow_0;
+    const T c = 0.5 * law.surface.apex * (cosine_ + sine_ * law.surface.flow_1);
     end_ = log((b + sqrt(b * b + 4.0 * a * c)) / (2.0 * a));
-    const T begin = log((onset[1] + sqrt(onset[1] * onset[1] + law.apex * law.apex)) / law.apex);
+    const T begin =
+        log((onset[1] + sqrt(onset[1] * onset[1] + law.surface.apex * law.surface.apex)) / law.surface.apex);
     distance_ = begin - end_;
   }
 
   /// False where the plane meets contact on the way.
   [[nodiscard]] bool stays_open() const {
     const double most = std::max(std::abs(value(end_)), std::abs(value(end_) + value(distance_)));
-    return value(law_.cohesion) >= value(law_.apex) * std::cosh(most);
+    return value(law_.surface.cohesion) >= value(law_.surface.apex) * std::cosh(most);
   }
 
   [[nodiscard]] SofteningRate<T> operator()(double z) const { return at(T(distance_ * std::exp(-z))); }
@@ -76,14 +81,15 @@ class OpenZone {
     using std::sinh;
     const T x = end_ + d;
     const T middle = end_ + 0.5 * d;
-    const T shear = law_.apex * sinh(x);
-    const HyperbolaPoint<T> h = hyperbola(law_, T(shear * shear));
-    const T less = law_.apex * (cosine_ * cosh(middle) - sine_ * law_.flow_1 * sinh(middle)) * sinh_ratio(T(0.5 * d));
-    const T stiff = law_.cot_phi * law_.flexibility_n * shear;
+    const T shear = law_.surface.apex * sinh(x);
+    const SurfacePoint<T> h = law_.surface.point(T(shear * shear));
+    const T less = law_.surface.apex * (cosine_ * cosh(middle) - sine_ * law_.surface.flow_1 * sinh(middle)) *
+                   sinh_ratio(T(0.5 * d));
+    const T stiff = law_.surface.cot_phi * law_.flexibility_n * shear;
     SofteningRate<T> r;
     r.length = (law_.flexibility_s * h.flow_n * h.radius + stiff * shear) / less;
-    r.softening =
-        (h.flow_n + shear) * (law_.flexibility_s * h.radius * cosine_ + stiff * sine_) / less * law_.inverse_delta0;
+    r.softening = (h.flow_n + shear) * (law_.flexibility_s * h.radius * cosine_ + stiff * sine_) / less *
+                  exponential_.inverse_delta0;
     r.work = (h.normal * cosine_ + shear * sine_) * r.length;
     return r;
   }
@@ -97,13 +103,14 @@ class OpenZone {
   }
 
   CohesiveLaw<T> law_;
+  ExponentialSoftening<T> exponential_;
   double cosine_;
   double sine_;
   T end_;
   T distance_;
 };
 
-/// Yielding in shear at a constant normal traction, with z = k: everything follows from w = exp(-z).
+/// Yielding in shear at a constant normal traction, with z = k = -ln w: everything follows from w = exp(-z).
 template <class T>
 class ShearedZone {
  public:
@@ -111,14 +118,15 @@ class ShearedZone {
 
   [[nodiscard]] SofteningRate<T> operator()(double z) const {
     const double w = std::exp(-z);
-    const T friction = normal_ * law_.tan_phi;
-    const T apex = w * law_.apex;
-    const T radius = w * law_.cohesion - friction;
+    const T friction = normal_ * law_.surface.tan_phi;
+    const T apex = w * law_.surface.apex;
+    const T radius = w * law_.surface.cohesion - friction;
     const T shear = surface_shear(radius, apex);
-    const T dilation = law_.tan_psi * (w * law_.cohesion - normal_ * law_.tan_psi) / shear;
-    const T slip = law_.delta0 / (1.0 + dilation);  // of d(up_s), per k
+    const T dilation = law_.surface.tan_psi * (w * law_.surface.cohesion - normal_ * law_.surface.tan_psi) / shear;
+    const T fall = law_.softening.local_length(law_.softening.piece(w), T(w));
+    const T slip = fall / (1.0 + dilation);  // of d(up_s), per k
     // Elastic part of the slip, d(t_s/(w Ks))/dk; the normal spring softens only in tension.
-    const T spring = friction * (friction - w * law_.cohesion) / (w * shear) * law_.flexibility_s;
+    const T spring = friction * (friction - w * law_.surface.cohesion) / (w * shear) * law_.flexibility_s;
     const T opening = dilation * slip + (normal_ > 0.0 ? T(normal_ / w * law_.flexibility_n) : T(0.0));
     SofteningRate<T> r;
     r.length = slip + spring;
@@ -159,7 +167,7 @@ Work<T> open_work(const OpenZone<T>& zone, const OpenZone<double>& plain, std::o
 template <class T>
 Work<T> sheared_work(const CohesiveLaw<T>& law, const CohesiveLaw<double>& plain, const FractureEnergyTest& test) {
   const double normal = test.normal_traction;
-  if (normal >= plain.tensile_strength) {
+  if (normal >= plain.surface.tensile_strength) {
     return no_work<T>("a normal traction of " + number(normal) +
                       " Pa is not below the tensile strength: the zone opens before it is sheared");
   }
@@ -182,14 +190,15 @@ Work<T> sheared_work(const CohesiveLaw<T>& law, const CohesiveLaw<double>& plain
   return {sum.work, {}};
 }
 
-/// The work of the library's own integrator along a fixed direction: for planes that are pressed shut on the way.
+/// The work of the library's own integrator along a fixed direction: for planes that are pressed shut on the way, and
+/// for softening laws without a quadrature.
 template <class T>
 Work<T> pressed_work(const CohesiveLaw<T>& law, const Vec<double, 2>& direction, const Vec<T, 2>& onset,
                      std::optional<double> end) {
   Options options;
   options.tolerance = 1e-11;
   CohesiveState<T, 2> zone = cracked_at<T, 2>(law, onset);
-  const double length = end ? *end : 4.0 * value(law.delta0);
+  const double length = end ? *end : 4.0 * value(law.softening.length());
   for (int k = 0; k < 1000; ++k) {
     const Vec<T, 2> du = convert<T>(Vec<double, 2>(direction * length));
     const Report report = move_zone(law, options, zone, du, zone);
@@ -211,14 +220,14 @@ Work<T> directed_work(const CohesiveLaw<T>& law, const CohesiveLaw<double>& plai
     return no_work<T>("no onset: traction at " + number(test.onset_angle_deg.value_or(angle_deg)) +
                       " degrees from the normal never reaches the yield surface");
   }
-  const bool slides = direction[0] <= direction[1] * plain.flow_1;  // tan^2(psi)/tan(phi): the friction limit
+  const bool slides = direction[0] <= direction[1] * plain.surface.flow_1;  // tan^2(psi)/tan(phi): the friction limit
   if (!test.end && slides) {
     return no_work<T>(
         "the work does not converge: dilation presses the plane shut faster than the jump opens it, so "
         "friction never ends at " +
         number(angle_deg) + " degrees from the normal. Give an end opening");
   }
-  if (!slides) {
+  if (!slides && std::holds_alternative<ExponentialSoftening<T>>(law.softening.law)) {
     const OpenZone<T> zone(law, direction, *onset);
     if (zone.stays_open()) {
       return open_work(zone, OpenZone<double>(plain, direction, convert<double>(*onset)), test.end);

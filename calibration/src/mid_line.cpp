@@ -6,7 +6,7 @@
 #include <sstream>
 #include <utility>
 
-#include "fpz/cohesive_law.hpp"
+#include "fpz/energy.hpp"
 #include "zone.hpp"
 
 namespace fpz::calibration {
@@ -35,7 +35,7 @@ BasicParameters<Slope> seeded_inputs(const Parameters& p) {
 /// A zone that has just cracked in pure opening.
 template <class Slope, class P>
 CohesiveState<Slope, 1> fresh_zone(const CohesiveLaw<P>& law) {
-  return cracked_at<Slope, 1>(law, Vec<Slope, 1>::Constant(Slope(law.tensile_strength)));
+  return cracked_at<Slope, 1>(law, Vec<Slope, 1>::Constant(Slope(law.surface.tensile_strength)));
 }
 
 const char* name(Gauge g) { return g == Gauge::cmod ? "CMOD" : "deflection"; }
@@ -144,7 +144,8 @@ bool MidLine::evaluate(const State& next, System& s) {
     s.residual[row] -= s.area[row] * end.traction[0].val;
   }
   s.gauge_residual = next.reading - control_.offset - s.gauge.dot(s.jump) - reading_per_load_ * next.load;
-  s.error = s.nodes.empty() ? 0.0 : (s.residual.array() / s.area.array()).abs().maxCoeff() / law_.tensile_strength;
+  s.error =
+      s.nodes.empty() ? 0.0 : (s.residual.array() / s.area.array()).abs().maxCoeff() / law_.surface.tensile_strength;
   return std::isfinite(s.error);
 }
 
@@ -194,7 +195,8 @@ bool MidLine::change_set(State& next, const System& s) const {
   bool changed = false;
   for (std::size_t i = 0; i < next.cracked.size(); ++i) {
     const auto node = static_cast<Eigen::Index>(i);
-    const bool crack = !next.cracked[i] && force[node] > body_.area[node] * law_.tensile_strength * (1.0 + tolerance);
+    const bool crack =
+        !next.cracked[i] && force[node] > body_.area[node] * law_.surface.tensile_strength * (1.0 + tolerance);
     const bool tie = next.cracked[i] && !now_.cracked[i] && next.jump[node] < 0.0;
     if (!crack && !tie) continue;
     next.cracked[i] = crack;
@@ -221,7 +223,8 @@ bool MidLine::close_to_prediction(const State& next) const {
   const double load = now_.load + now_.load_rate * step;
   if (std::abs(next.load - load) > load_tolerance * std::max(largest_load_, std::abs(next.load))) return false;
   const Eigen::ArrayXd jump = now_.jump + now_.jump_rate * step;
-  return ((next.jump.array() - jump).abs() <= jump_tolerance * (law_.delta0 + next.jump.array().abs())).all();
+  return ((next.jump.array() - jump).abs() <= jump_tolerance * (law_.softening.length() + next.jump.array().abs()))
+      .all();
 }
 
 bool MidLine::differentiate(State& next, const System& s) {
@@ -343,7 +346,7 @@ double MidLine::crack_length() const {
 
 double MidLine::elastic_limit() const {
   const double most = (body_.body.load.array() / body_.area.array()).maxCoeff();
-  return control_.offset + reading_per_load_ * law_.tensile_strength / most;
+  return control_.offset + reading_per_load_ * law_.surface.tensile_strength / most;
 }
 
 }  // namespace fpz::calibration

@@ -8,6 +8,8 @@
 #include "fpz/driver/dimension.hpp"
 #include "fpz/driver/stage_equations.hpp"
 #include "fpz/driver/trace.hpp"
+#include "fpz/tangent.hpp"
+#include "fpz/update_any_scalar.hpp"
 #include "jet.hpp"
 #include "words.hpp"
 

@@ -8,7 +8,6 @@
 
 #include "admissible.hpp"
 #include "fpz/calibration/onset_traction.hpp"
-#include "fpz/cohesive_law.hpp"
 #include "jet.hpp"
 #include "zone.hpp"
 
@@ -26,7 +25,7 @@ class ZoneRun {
     options_.tolerance = test.tolerance;
     // The normal traction is held by a soft spring in series with the zone, whose far end is moved so that the traction
     // is right at every row. In between it follows the zone's dilation, less than delta0, divided by this compliance.
-    spring_ = 1e3 * law_.delta0 / law_.tensile_strength;
+    spring_ = 1e3 * law_.softening.length() / law_.surface.tensile_strength;
   }
 
   /// Puts the zone at its start; otherwise says why there is none.
@@ -66,10 +65,11 @@ class ZoneRun {
     Vec<T, 2> onset;
     if (first.normal_traction) {
       const double normal = *first.normal_traction;
-      if (!(normal < plain_.tensile_strength)) return "row 1: its normal traction is not below the tensile strength";
-      const T radius = law_.cohesion - normal * law_.tan_phi;
+      if (!(normal < plain_.surface.tensile_strength))
+        return "row 1: its normal traction is not below the tensile strength";
+      const T radius = law_.surface.cohesion - normal * law_.surface.tan_phi;
       onset[0] = T(normal);
-      onset[1] = sign * surface_shear(radius, law_.apex);
+      onset[1] = sign * surface_shear(radius, law_.surface.apex);
     } else {
       const auto moved = std::find_if(test_.rows.begin(), test_.rows.end(), [](const ZoneRow& r) {
         return r.shear_jump != 0.0 || r.normal_jump.value_or(0.0) != 0.0;
@@ -96,10 +96,10 @@ class ZoneRun {
   template <class S, class P>
   [[nodiscard]] Report pull(const CohesiveLaw<P>& law, const P& spring, const CohesiveState<S, 2>& begin, const S& end,
                             double shear_jump, CohesiveState<S, 2>& out) const {
-    Vec<S, 2> d0, d1;
-    d0 << begin.jump[0] + spring * begin.traction[0], begin.jump[1];
-    d1 << end, S(shear_jump);
-    return follow_zone(law, SeriesCompliance<P>{spring, P(0.0)}, options_, begin, d0, d1, out);
+    Drive<S, 2> drive;
+    drive.from << begin.jump[0] + spring * begin.traction[0], begin.jump[1];
+    drive.to << end, S(shear_jump);
+    return follow_zone(law, SeriesCompliance<P>{spring, P(0.0)}, options_, begin, drive, out);
   }
 
   /// Finds where the far end of the spring has to go. The zone is much stiffer, so taking over its jump converges fast;
@@ -109,7 +109,7 @@ class ZoneRun {
     CohesiveState<double, 2> out;
     const double spring = value(spring_);
     double end = begin.jump[0] + spring * traction;
-    const double scale = std::max(std::abs(traction), plain_.tensile_strength);
+    const double scale = std::max(std::abs(traction), plain_.surface.tensile_strength);
     double miss = 0.0;
     for (int k = 0; k < 50; ++k) {
       const Report report = pull(plain_, spring, begin, end, shear_jump, out);
@@ -138,7 +138,7 @@ class ZoneRun {
     std::ostringstream text;
     text << "row " << row + 1 << ": ";
     const std::optional<double>& held = test_.rows[row].normal_traction;
-    if (held && *held >= plain_.tensile_strength * value(zone_.integrity)) {
+    if (held && *held >= plain_.surface.tensile_strength * value(zone_.integrity)) {
       text << "the normal traction of " << *held << " Pa is more than the zone can carry";
     } else if (held && report.status == Status::snap_back) {
       text << "the zone separates at once under the normal traction of " << *held

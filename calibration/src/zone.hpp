@@ -2,17 +2,16 @@
 // integrators of the law, compiled once for the scalars that the models use.
 #pragma once
 
-#include "fpz/cohesive_state.hpp"
+#include "fpz/integrators/zone.hpp"
 #include "fpz/options.hpp"
 
 namespace fpz::calibration {
 
-/// The zone in series with a compliance while its drive goes from d0 to d1 (m), with error control to
-/// options.tolerance. `end` is written only on success.
+/// The zone in series with a compliance while its drive goes straight on (m), with error control to options.tolerance.
+/// `end` is written only on success.
 template <class T, class P>
 [[nodiscard]] Report follow_zone(const CohesiveLaw<P>& law, const SeriesCompliance<P>& series, const Options& options,
-                                 const CohesiveState<T, 2>& begin, const Vec<T, 2>& d0, const Vec<T, 2>& d1,
-                                 CohesiveState<T, 2>& end);
+                                 const CohesiveState<T, 2>& begin, const Drive<T, 2>& drive, CohesiveState<T, 2>& end);
 
 /// The same with the jump itself driven, by `du` (m).
 template <class T>
@@ -22,7 +21,7 @@ template <class T>
   const Vec<T, 2> target = begin.jump + du;
   if (!is_finite(target) || !is_finite(begin)) return {Status::invalid_input, 0, 0, false};
   CohesiveState<T, 2> out;
-  const Report report = follow_zone(law, rigid, options, begin, begin.jump, target, out);
+  const Report report = follow_zone(law, rigid, options, begin, Drive<T, 2>{begin.jump, target}, out);
   if (report.ok()) end = out;
   return report;
 }

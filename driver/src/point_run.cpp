@@ -5,6 +5,8 @@
 #include <sstream>
 #include <vector>
 
+#include "fpz/energy.hpp"
+#include "fpz/onset.hpp"
 #include "stage_control.hpp"
 
 namespace fpz::driver {
@@ -161,13 +163,9 @@ class PointRun {
     Point p = now_.point;
     const Strain way = control_->jump_controlled() ? control_->direction() : Strain(end.strain - p.strain);
     const Strain rate = material_.bulk.template stress<double, Dim>(way);
-    double reach = 1.0;
-    for (; reach < 1e12; reach *= 2.0) {  // under jump control the end may lie before the onset
-      if (critical_plane<Dim>(material_, Strain(p.stress + reach * rate)).failure_value >= 0.0) break;
-    }
-    const double x = reach * onset_fraction<Dim>(material_, p.stress, Strain(p.stress + reach * rate));
-    p.strain += x * way;
-    p.stress += x * rate;
+    // Under jump control the end may lie before the onset.
+    const auto x = distance_to_onset<Dim>(material_, p.stress, rate, 1.0, 1e12);
+    if (x) go_elastically<Dim>(p, way, rate, *x);
     return p;
   }
 
@@ -205,7 +203,7 @@ class PointRun {
     }
     const Strain chord = 0.5 * (begin.point.stress + end.point.stress) - now_.point.stress;
     const double error =
-        chord.template lpNorm<Eigen::Infinity>() / material_.law.tensile_strength / stage().step_tolerance;
+        chord.template lpNorm<Eigen::Infinity>() / material_.law.surface.tensile_strength / stage().step_tolerance;
     now_ = end;
     ds = step * std::clamp(0.9 / std::sqrt(error + 1e-12), 0.2, 3.0);
     ds = std::clamp(ds, smallest_automatic_step, largest_automatic_step);

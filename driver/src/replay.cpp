@@ -10,6 +10,7 @@
 #include "fpz/capture.hpp"
 #include "fpz/driver/dimension.hpp"
 #include "fpz/driver/path_file.hpp"
+#include "fpz/update.hpp"
 
 namespace fpz::driver {
 namespace {

@@ -5,8 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fpz/continuation.hpp"
 #include "fpz/driver/stage_equations.hpp"
+#include "fpz/jump_control.hpp"
+#include "fpz/update.hpp"
 
 namespace fpz::driver {
 

@@ -5,6 +5,8 @@
 #include <limits>
 
 #include "fpz/driver/dimension.hpp"
+#include "fpz/tangent.hpp"
+#include "fpz/update.hpp"
 #include "point_run.hpp"
 
 namespace fpz::driver {
@@ -50,7 +52,8 @@ class StepCheck {
  private:
   /// Best agreement over many difference steps: large ones suffer from curvature, small ones from rounding.
   [[nodiscard]] std::pair<double, double> check_column(int j, const Column& tangent, const Column& stress) const {
-    const double strain_scale = material_.law.tensile_strength / (material_.bulk.lambda + 2.0 * material_.bulk.mu);
+    const double strain_scale =
+        material_.law.surface.tensile_strength / (material_.bulk.lambda + 2.0 * material_.bulk.mu);
     double best = std::numeric_limits<double>::infinity();
     double one_sided = best;
     for (double h = 1e-2 * strain_scale; h > 1e-8 * strain_scale; h *= 0.25) {

@@ -3,12 +3,15 @@
 #pragma once
 
 #include "cases.hpp"
+#include "fpz/update_any_scalar.hpp"
 
 namespace fpz::bench {
 
-using Zone = CohesiveState<double, 2>;
+using Crack = CohesiveState<double, 2>;
+using Law = CohesiveLaw<double>;
+using Zone = fpz::Zone<Law>;
 using Vec2 = Vec<double, 2>;
-using Phase = detail::YieldingPhase<double, 2, double>;
+using Phase = detail::YieldingPhase<double, 2, Law>;
 
 struct Step {
   bool defined = false;
@@ -56,11 +59,10 @@ struct DormandPrince54 {
 };
 
 /// End of a phase: the zone from (tau_s, a), which lies on the yield surface, at the drive d.
-inline void write_zone(const CohesiveLaw<double>& law, const SeriesCompliance<double>& series, bool tension,
-                       double w_begin, const Vec2& y, const Vec2& d, Zone& z) {
-  const double w = w_begin * integrity_ratio(law, y[1]);
-  const auto hyp = hyperbola(law, y[0] * y[0]);
-  const auto c = scaled_compliance(law, series, w, tension);
+inline void write_zone(const Zone& zone, bool tension, double w_begin, const Vec2& y, const Vec2& d, Crack& z) {
+  const double w = zone.law.softening.after(w_begin, y[1]);
+  const auto hyp = zone.law.surface.point(y[0] * y[0]);
+  const auto c = detail::scaled_compliance(zone, w, tension);
   const double normal = d[0] + z.offset[0] - c.normal * hyp.normal;
   z.slip += std::max(y[1] - (normal - z.plastic_jump[0]), 0.0);
   z.plastic_jump[0] = normal;
@@ -69,20 +71,17 @@ inline void write_zone(const CohesiveLaw<double>& law, const SeriesCompliance<do
 }
 
 /// Traction and jump at the end of an increment whose last phase was elastic.
-inline void write_elastic(const CohesiveLaw<double>& law, const SeriesCompliance<double>& series, const Vec2& d,
-                          Zone& z) {
-  z.traction = elastic_traction(law, series, z.integrity, Vec2(d + z.offset - z.plastic_jump));
-  z.jump[0] = d[0] - series.normal * z.traction[0];
-  z.jump[1] = d[1] - series.shear * z.traction[1];
+inline void write_elastic(const Zone& zone, const Vec2& d, Crack& z) {
+  z.traction = detail::elastic_traction(zone, z.integrity, Vec2(d + z.offset - z.plastic_jump));
+  z.jump = detail::continuous_jump(zone.series, d, z.traction);
 }
 
 /// The drive d0 -> d1 with a one-step method for the rate equations; phases and events as in the library.
 template <class Method>
-[[nodiscard]] Report integrate_stepping(const CohesiveLaw<double>& law, const SeriesCompliance<double>& series,
-                                        const Options& o, const Zone& begin, const Vec2& d0, const Vec2& d1,
-                                        Zone& end) {
+[[nodiscard]] Report integrate_stepping(const Zone& zone, const Options& o, const Crack& begin, const Vec2& d0,
+                                        const Vec2& d1, Crack& end) {
   Report report;
-  Zone z = begin;
+  Crack z = begin;
   const Vec2 rate = d1 - d0;
   const double tolerance = detail::local_tolerance_fraction * o.tolerance;
   const auto fail = [&](Status s) {
@@ -93,7 +92,7 @@ template <class Method>
   int stalled = 0;
   while (x < 1.0) {
     const Vec2 q = d0 + rate * x + z.offset - z.plastic_jump;
-    const double entry = detail::yield_entry<2>(law, series, z.integrity, q, Vec2(rate * (1.0 - x)));
+    const double entry = detail::yield_entry<2>(zone, z.integrity, q, Vec2(rate * (1.0 - x)));
     if (entry < 0.0) break;
     x += entry * (1.0 - x);
     if (stalled > 1) {
@@ -102,9 +101,9 @@ template <class Method>
       continue;
     }
     const double w_begin = z.integrity;
-    Phase phase(law, series, w_begin, rate);
-    Vec2 y((d0[1] + rate[1] * x + z.offset[1] - z.plastic_jump[1]) / (law.flexibility_s + w_begin * series.shear), 0.0);
-    detail::choose_branch(law, phase, y);
+    Phase phase(zone, w_begin, rate);
+    Vec2 y((d0[1] + rate[1] * x + z.offset[1] - z.plastic_jump[1]) / zone.shear_compliance(w_begin), 0.0);
+    detail::choose_branch(phase, y);
     auto r = phase.point(y);
     if (phase.loading_at(r) <= 0.0) {
       ++stalled;
@@ -113,7 +112,8 @@ template <class Method>
     if (!(r.h > 0.0)) return fail(Status::snap_back);
     stalled = 0;
     Vec2 f = phase.rates(r);
-    double step = std::min(1.0 - x, 0.5 * law.delta0 * std::pow(o.tolerance, Method::exponent) / std::abs(f[1]));
+    double step =
+        std::min(1.0 - x, 0.5 * zone.law.softening.length() * std::pow(o.tolerance, Method::exponent) / std::abs(f[1]));
     for (bool unloaded = false; x < 1.0 && !unloaded;) {
       if (++report.iterations > o.max_substeps) return fail(Status::non_convergence);
       const bool last = step >= (1.0 - x) * (1.0 - 1e-12);
@@ -127,7 +127,8 @@ template <class Method>
       }
       auto r1 = phase.point(s.y);
       int fired = -1;
-      for (int which = 0; which < Phase::event_count; ++which) {
+      for (int event = 0; event < detail::yield_event_count; ++event) {
+        const auto which = static_cast<detail::YieldEvent>(event);
         if (phase.event(which, r1) >= 0.0) continue;
         const auto at = [&](double to) {
           return phase.event(which, phase.point(Method::advance(phase, y, r, f, to).y));
@@ -156,7 +157,7 @@ template <class Method>
           if (close) break;
         }
         h = hi;
-        fired = which;
+        fired = event;
         s = Method::advance(phase, y, r, f, h);
         r1 = phase.point(s.y);
       }
@@ -171,20 +172,19 @@ template <class Method>
       step = fired > 0 ? std::max(step - h, 1e-3 * step)
                        : h * std::min(5.0, 0.9 * std::pow(error + 1e-12, -Method::exponent));
     }
-    write_zone(law, series, phase.branch.tension, w_begin, y, d0 + rate * x, z);
+    write_zone(zone, phase.branch.tension, w_begin, y, d0 + rate * x, z);
   }
-  write_elastic(law, series, d1, z);
+  write_elastic(zone, d1, z);
   end = z;
   return report;
 }
 
 /// Backward Euler with step doubling: two half steps against one, extrapolated in (tau_s, a) to second order where all
 /// three yield on one branch, with adaptive steps.
-[[nodiscard]] inline Report integrate_extrapolated(const CohesiveLaw<double>& law,
-                                                   const SeriesCompliance<double>& series, const Options& o,
-                                                   const Zone& begin, const Vec2& d0, const Vec2& d1, Zone& end) {
+[[nodiscard]] inline Report integrate_extrapolated(const Zone& zone, const Options& o, const Crack& begin,
+                                                   const Vec2& d0, const Vec2& d1, Crack& end) {
   Report report;
-  Zone z = begin;
+  Crack z = begin;
   const Vec2 rate = d1 - d0;
   const double tolerance = detail::local_tolerance_fraction * o.tolerance;
   double x = 0.0;
@@ -193,7 +193,7 @@ template <class Method>
   while (x < 1.0) {
     if (!yielding) {
       const Vec2 q = d0 + rate * x + z.offset - z.plastic_jump;
-      const double entry = detail::yield_entry<2>(law, series, z.integrity, q, Vec2(rate * (1.0 - x)));
+      const double entry = detail::yield_entry<2>(zone, z.integrity, q, Vec2(rate * (1.0 - x)));
       if (entry < 0.0) break;
       x += entry * (1.0 - x);
       yielding = true;
@@ -207,16 +207,17 @@ template <class Method>
     const Vec2 from = d0 + rate * x;
     const Vec2 middle = d0 + rate * (x + 0.5 * h);
     const Vec2 to = last ? d1 : Vec2(d0 + rate * (x + h));
-    Zone full, half, two;
+    Crack full, half, two;
     Report steps;  // single steps of backward Euler, not the library's integrator, which may take parts
-    const auto euler = [&](const Zone& a, const Vec2& drive_a, const Vec2& drive_b, Zone& b) {
-      return detail::implicit_step(law, series, 1.0, a, drive_a, drive_b, b, steps) && steps.ok();
+    const auto euler = [&](const Crack& a, const Vec2& drive_a, const Vec2& drive_b, Crack& b) {
+      return detail::implicit_step(zone, 1.0, a, Drive<double, 2>{drive_a, drive_b}, b, steps) && steps.ok();
     };
     const bool ok = euler(z, from, to, full) && euler(z, from, middle, half) && euler(half, middle, to, two);
-    const double error = ok ? std::max((two.traction - full.traction).lpNorm<Eigen::Infinity>() / law.tensile_strength,
-                                       std::abs(two.integrity - full.integrity)) /
-                                  tolerance
-                            : 1e9;
+    const double error =
+        ok ? std::max((two.traction - full.traction).lpNorm<Eigen::Infinity>() / zone.law.surface.tensile_strength,
+                      std::abs(two.integrity - full.integrity)) /
+                 tolerance
+           : 1e9;
     if (!(error <= 1.0)) {
       step = h * std::max(0.1, 0.9 / std::sqrt(error));
       if (step < 1e-13) {
@@ -233,26 +234,26 @@ template <class Method>
                             (two.traction[0] > 0.0) == (half.traction[0] > 0.0) &&
                             full.traction[1] * two.traction[1] >= 0.0;
     if (all_yield && one_branch) {
-      const auto pack = [&](const Zone& s) {
-        return Vec2(s.traction[1] / s.integrity, -law.delta0 * std::log(s.integrity / z.integrity));
+      const auto pack = [&](const Crack& s) {
+        return Vec2(s.traction[1] / s.integrity, -zone.law.softening.length() * std::log(s.integrity / z.integrity));
       };
       const Vec2 y = 2.0 * pack(two) - pack(full);
-      write_zone(law, series, two.traction[0] >= 0.0, z.integrity, y, to, z);
+      write_zone(zone, two.traction[0] >= 0.0, z.integrity, y, to, z);
     } else {
-      const Zone before = z;
+      const Crack before = z;
       z = two;
       z.offset = before.offset;
       yielding = two.integrity < half.integrity;
     }
     step = h * std::min(5.0, 0.9 / std::sqrt(error + 1e-12));
   }
-  write_elastic(law, series, d1, z);
+  write_elastic(zone, d1, z);
   end = z;
   return report;
 }
 
-/// Algorithm 2 of the library with another integrator for the cracked point: `integrate(law, series, options, begin,
-/// d0, d1, end)`.
+/// Algorithm 2 of the library with another integrator for the cracked point: `integrate(zone, options, begin, d0, d1,
+/// end)`.
 template <class Integrate>
 [[nodiscard]] auto update_with(const Material<double>& m, const Options& o, const Integrate& integrate) {
   return [&m, o, integrate](const State2& begin, const Tensor<double, 2>& dstrain, State2& end) {
@@ -260,17 +261,17 @@ template <class Integrate>
     State2 s = begin;
     if (!begin.cracked) {
       const Tensor<double, 2> stress = m.bulk.stress<double, 2>(strain);
-      if (surely_intact<2>(m, stress) || detail::find_plane<2>(m, o, stress).failure_value < 0.0) {
+      if (surely_intact<2>(m, stress) || find_plane<2>(m, o, stress).failure_value < 0.0) {
         end.strain = strain;
         end.stress = stress;
         end.cracked = false;
         return Report{};
       }
-      s = detail::open_crack<2>(m, o, begin, strain, stress);
+      s = detail::cracked_between<2>(m, o, begin, strain, stress);
     }
     const Vec2 d0 = detail::drive<double, 2>(m, s.frame, s.strain);
     const Vec2 d1 = detail::drive<double, 2>(m, s.frame, strain);
-    const Report r = integrate(m.law, m.series, o, s.crack, d0, d1, s.crack);
+    const Report r = integrate(Zone(m.law, m.series), o, s.crack, d0, d1, s.crack);
     if (!r.ok()) return r;
     s.strain = strain;
     s.stress = detail::macro_stress(m, s);
@@ -280,18 +281,17 @@ template <class Integrate>
 }
 
 /// The Newton loop of solve_return() in the unknowns (S, a) instead of (z, a).
-[[nodiscard]] inline detail::ReturnSolution solve_return_sa(const CohesiveLaw<double>& law,
-                                                            const SeriesCompliance<double>& series, double qn,
-                                                            double qs, double w_old, double s_entry, double tolerance) {
+[[nodiscard]] inline detail::ReturnSolution solve_return_sa(const Zone& zone, const detail::ReturnStart<double>& start,
+                                                            double s_entry, double tolerance) {
   detail::ReturnSolution out;
   double s = s_entry;
   double a = 0.0;
   bool close = false;
   for (int k = 0; k < 12; ++k) {
-    const auto e = detail::return_system(law, series, qn, qs, w_old, s, a);
+    const auto e = detail::return_system(zone, start, s, a);
     ++out.iterations;
     if (k == 0) {
-      out.entry_density = detail::dissipation_density(law, e, s);
+      out.entry = detail::dissipation_at<double>(zone.law, e, s);
       if (!(e.rate_modulus() > 0.0)) return out;
     }
     const double det = e.determinant();
@@ -315,17 +315,19 @@ template <class Integrate>
 
 /// What solve_return() is called with in an update of a yielding point.
 struct ReturnInput {
-  double qn, qs, w, entry, tolerance;
+  detail::ReturnStart<double> start;
+  double entry, tolerance;
 };
 
 [[nodiscard]] inline ReturnInput return_input(const Material<double>& m, const State2& s, const Tensor<double, 2>& d) {
+  const Zone zone(m.law, m.series);
   const Vec2 d0 = detail::drive<double, 2>(m, s.frame, s.strain);
   const Vec2 d1 = detail::drive<double, 2>(m, s.frame, Tensor<double, 2>(s.strain + d));
   const Vec2 q0 = d0 + s.crack.offset - s.crack.plastic_jump;
   const Vec2 q1 = d1 + s.crack.offset - s.crack.plastic_jump;
   const double w = s.crack.integrity;
-  const detail::Trial t = detail::elastic_trial(m.law, m.series, w, s.crack, d1, q1);
-  return {q1[0], t.shear, w, detail::shear_at_entry<2>(m.law, m.series, w, q0, q1), t.tolerance};
+  const detail::Trial t = detail::elastic_trial(zone, w, s.crack, d1, q1);
+  return {{q1[0], t.shear, w}, detail::shear_at_entry<2>(zone, w, q0, q1), t.tolerance};
 }
 
 }  // namespace fpz::bench

@@ -6,6 +6,8 @@
 
 #include "cases.hpp"
 #include "fpz/batch.hpp"
+#include "fpz/cohesive_update.hpp"
+#include "fpz/onset.hpp"
 
 namespace fpz::bench {
 namespace {

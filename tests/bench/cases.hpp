@@ -62,7 +62,7 @@ template <int Dim>
   std::vector<State<double, Dim>> points;
   for (int k = 0; k < point_count; ++k) {
     State<double, Dim> s;
-    s.strain[0] = (level - 0.002 * k / point_count) * m.law.tensile_strength / modulus;
+    s.strain[0] = (level - 0.002 * k / point_count) * m.law.surface.tensile_strength / modulus;
     s.strain[Dim] = 1e-6 * k;
     s.stress = m.bulk.stress<double, Dim>(s.strain);
     points.push_back(s);

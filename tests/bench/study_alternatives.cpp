@@ -94,11 +94,12 @@ AlternativeStudy study_alternatives() {
   const Material<double> m = johnstone<2>();
   std::vector<ReturnInput> inputs;
   for (const State2& s : yielding_points<2>(m)) inputs.push_back(return_input(m, s, mixed_loading<2>(paper_increment)));
+  const Zone zone(m.law, m.series);
   double sa = 0.0;
   double za = 0.0;
   for (const ReturnInput& in : inputs) {
-    sa += solve_return_sa(m.law, m.series, in.qn, in.qs, in.w, in.entry, in.tolerance).iterations;
-    za += detail::solve_return(m.law, m.series, in.qn, in.qs, in.w, in.entry, in.tolerance).iterations;
+    sa += solve_return_sa(zone, in.start, in.entry, in.tolerance).iterations;
+    za += detail::solve_return(zone, in.start, in.entry, in.tolerance).iterations;
   }
   study.sa_iterations = sa / point_count;
   study.za_iterations = za / point_count;
@@ -106,17 +107,18 @@ AlternativeStudy study_alternatives() {
   const auto solves = [&](const auto& solve, double link) {
     return [&inputs, &last, solve, link] {
       for (const ReturnInput& in : inputs) {
-        const detail::ReturnSolution r = solve(in, in.qn + link * last);
+        const detail::ReturnSolution r = solve(in, in.start.normal + link * last);
         keep(r);
         last = r.s;
       }
     };
   };
   const auto in_sa = [&](const ReturnInput& in, double qn) {
-    return solve_return_sa(m.law, m.series, qn, in.qs, in.w, in.entry, in.tolerance);
+    return solve_return_sa(zone, {qn, in.start.shear, in.start.integrity}, in.entry, in.tolerance);
   };
   const auto in_za = [&](const ReturnInput& in, double qn) {
-    return detail::solve_return(m.law, m.series, qn, in.qs, in.w, in.entry, in.tolerance);
+    return detail::solve_return(zone, detail::ReturnStart<double>{qn, in.start.shear, in.start.integrity}, in.entry,
+                                in.tolerance);
   };
   // 1e-40 m per Pa changes no digit of q.
   const std::vector<double> seconds =

@@ -1,5 +1,6 @@
 #include <limits>
 
+#include "fpz/cohesive_update.hpp"
 #include "studies.hpp"
 
 namespace fpz::bench {
@@ -9,14 +10,14 @@ MapStudy study_maps() {
   study.size = 61;
   const Material<double> m = johnstone<2>();
   const Options exact = options_of(Method::accurate, 1e-11);
-  const double delta0 = m.law.delta0;
+  const double delta0 = m.law.softening.length();
   const double opening = paper_increment * m.rve_length / delta0;
   study.paper_step = {opening, 10.0 * opening};  // du = 2 H d eps_xy
   for (const Method method : {Method::paper, Method::implicit}) {
     for (const double damage_wanted : {0.0, 0.3, 0.8}) {
       // A point on the surface: cracked in mixed mode, then opened and sheared alike until D is reached.
       const double shear = 0.4e6;
-      const double normal = hyperbola(m.law, shear * shear).normal;
+      const double normal = m.law.surface.point(shear * shear).normal;
       CohesiveState<double, 2> begin = cracked_at<double, 2>(m.law, Vec<double, 2>(normal, shear));
       const Vec<double, 2> direction(delta0, delta0);
       double low = 0.0;
@@ -39,7 +40,7 @@ MapStudy study_maps() {
         const Vec<double, 2> du(un * delta0, us * delta0);
         if (!cohesive_update(m.law, exact, begin, du, b).ok()) throw std::runtime_error("study_maps: no reference");
         if (!cohesive_update(m.law, o, begin, du, a).ok()) return std::numeric_limits<double>::quiet_NaN();
-        return (a.traction - b.traction).lpNorm<Eigen::Infinity>() / m.law.tensile_strength;
+        return (a.traction - b.traction).lpNorm<Eigen::Infinity>() / m.law.surface.tensile_strength;
       };
       double failed = 0.0;
       double good = 0.0;

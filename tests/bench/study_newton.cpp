@@ -1,6 +1,7 @@
 #include <cstdio>
 
 #include "alternatives.hpp"
+#include "fpz/cohesive_update.hpp"
 #include "studies.hpp"
 
 namespace fpz::bench {
@@ -29,13 +30,14 @@ void fit_orders(History& h, double rounding) {
 History implicit_history(const Material<double>& m, const State2& s, double factor) {
   const ReturnInput in = return_input(m, s, mixed_loading<2>(factor * paper_increment));
   History h{title_of(factor), false, {}, {}, {}};
-  double z = (in.entry + std::sqrt(in.entry * in.entry + m.law.apex * m.law.apex)) * m.law.inverse_apex;
+  double z = (in.entry + std::sqrt(in.entry * in.entry + m.law.surface.apex * m.law.surface.apex)) *
+             m.law.surface.inverse_apex;
   double a = 0.0;
   for (int k = 0; k < 12; ++k) {
-    const auto e = detail::fast_system(m.law, m.series, in.qn, in.qs, in.w, z, a);
+    const auto e = detail::fast_system(Zone(m.law, m.series), in.start, z, a);
     // Lengths, over delta0: the plastic jump that is missing.
-    h.residuals.push_back(std::max(std::abs(e.e1), std::abs(e.e2)) / (e.sum * m.law.delta0));
-    if (h.residuals.back() * m.law.delta0 <= in.tolerance) {
+    h.residuals.push_back(std::max(std::abs(e.e1), std::abs(e.e2)) / (e.sum * m.law.softening.length()));
+    if (h.residuals.back() * m.law.softening.length() <= in.tolerance) {
       h.converged = true;
       break;
     }
@@ -54,7 +56,7 @@ History paper_history(const Material<double>& m, const State2& s, const Tensor<d
   const Vec2 d0 = detail::drive<double, 2>(m, s.frame, s.strain);
   const Vec2 d1 = detail::drive<double, 2>(m, s.frame, Tensor<double, 2>(s.strain + d));
   History h{std::move(title), false, {}, {}, {}};
-  Zone z = s.crack;
+  Crack z = s.crack;
   const Vec2 stiffness(1.0 / m.series.normal, 1.0 / m.series.shear);
   const auto first = detail::paper_derivatives(m.law, z.traction, z.integrity);
   const Vec2 du = stiffness.cwiseProduct(d1 - d0).cwiseQuotient(stiffness + first.secant);
@@ -68,9 +70,9 @@ History paper_history(const Material<double>& m, const State2& s, const Tensor<d
       break;
     }
     if (!(h.residuals.back() < 1e6)) break;
-    const double f = yield_paper(m.law, z.traction[0], z.traction[1] * z.traction[1], z.integrity);
+    const double f = m.law.surface.printed_value(z.traction[0], z.traction[1] * z.traction[1], z.integrity);
     Mat<double, 2, 2> c = Mat<double, 2, 2>::Zero();
-    if (f > -1e-9 * m.law.cohesion * m.law.cohesion * z.integrity * z.integrity) {
+    if (f > -1e-9 * m.law.surface.cohesion * m.law.surface.cohesion * z.integrity * z.integrity) {
       c = detail::paper_tangent(m.law, z);
     } else {
       c.diagonal() = detail::paper_derivatives(m.law, z.traction, z.integrity).secant;

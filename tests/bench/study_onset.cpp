@@ -1,5 +1,6 @@
 #include <random>
 
+#include "fpz/onset.hpp"
 #include "studies.hpp"
 
 namespace fpz::bench {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cases.hpp"
+#include "fpz/energy.hpp"
 
 namespace fpz::bench {
 

@@ -8,7 +8,7 @@
 
 #include "differences.hpp"
 #include "fpz/calibration/onset_traction.hpp"
-#include "fpz/cohesive_law.hpp"
+#include "fpz/cohesive_update.hpp"
 #include "support/materials.hpp"
 
 namespace fpz::calibration {
@@ -151,17 +151,16 @@ TEST(FractureEnergy, ShearUnderNormalTractionAgreesWithTheTractionHeldByTheInteg
     const CohesiveLaw<double> law = make_cohesive_law(p);
     for (const double tn : {-2.0 * p.cohesion, -0.1 * p.cohesion, 0.1 * p.tensile_strength}) {
       const double end = 0.4 * p.delta0;
-      const double ts = std::sqrt(std::pow(p.cohesion - tn * law.tan_phi, 2) - law.apex * law.apex);
+      const double ts =
+          std::sqrt(std::pow(p.cohesion - tn * law.surface.tan_phi, 2) - law.surface.apex * law.surface.apex);
       Vec<double, 2> t;
       t << tn, ts;
       CohesiveState<double, 2> z = cracked_at<double, 2>(law, t);
       const SeriesCompliance<double> spring{1e4 * p.delta0 / p.tensile_strength, 0.0};
       Options options;
       options.tolerance = 1e-10;
-      Vec<double, 2> d0, d1;
-      d0 << spring.normal * tn, 0.0;
-      d1 << spring.normal * tn, end;
-      const Report report = integrate_cohesive(law, spring, options, z, d0, d1, z);
+      const Drive<double, 2> drive{{spring.normal * tn, 0.0}, {spring.normal * tn, end}};
+      const Report report = integrate_cohesive(Zone(law, spring), options, z, drive, z);
       if (!report.ok()) {  // both say that the zone separates at once under this tension
         EXPECT_EQ(report.status, Status::snap_back);
         EXPECT_NE(predict(shear(tn, end), p, false).failure.find("separates at once"), std::string::npos);
@@ -198,8 +197,8 @@ TEST(FractureEnergy, DerivativeWhereTheOnsetIsAlreadySteady) {
     Vec<double, 2> n;
     n << 1.0, 0.0;
     const Vec<double, 2> t = *onset_traction(law, n, mid);
-    const double flow = law.tan_psi * (law.cohesion - t[0] * law.tan_psi);
-    (std::tan(angle * fpz::degree) * flow > t[1] ? lo : hi) = mid;
+    const double flow = law.surface.tan_psi * (law.surface.cohesion - t[0] * law.surface.tan_psi);
+    (std::tan(angle * degree) * flow > t[1] ? lo : hi) = mid;
   }
   const FractureEnergyTest steady = direction(angle, {}, lo);
   expect_derivatives([&](const Parameters& q, bool d) { return predict(steady, q, d); }, p, 1e-3, 1e-7);

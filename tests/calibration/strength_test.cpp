@@ -75,7 +75,7 @@ TEST(Strength, PeakIsWhereTheLibraryFindsOnset) {
       const StrengthPoint& x = test.points[i];
       const double peak = peaks.values[static_cast<Eigen::Index>(i)];
       if (x.kind == StrengthKind::direct_shear) {
-        EXPECT_NEAR(yield_value(m.law, -x.pressure, peak * peak, 1.0), 0.0, 1e-13 * p.cohesion);
+        EXPECT_NEAR(m.law.surface.value_at(-x.pressure, peak * peak, 1.0), 0.0, 1e-13 * p.cohesion);
         continue;
       }
       const Tensor<double, 3> s = stress_at(x, peak);

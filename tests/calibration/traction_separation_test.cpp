@@ -7,7 +7,7 @@
 
 #include "differences.hpp"
 #include "fpz/calibration/fracture_energy.hpp"
-#include "fpz/cohesive_law.hpp"
+#include "fpz/cohesive_update.hpp"
 #include "support/materials.hpp"
 
 namespace fpz::calibration {
@@ -77,8 +77,8 @@ TEST(TractionSeparation, PureOpeningIsExponentialWithSecantUnloading) {
 TEST(TractionSeparation, ShearWithoutNormalTractionIsExponentialAndDilatesAtAConstantRate) {
   for (const Parameters& p : tables()) {
     const CohesiveLaw<double> law = make_cohesive_law(p);
-    const double tau0 = std::sqrt(law.cohesion * law.cohesion - law.apex * law.apex);
-    const double m = law.tan_psi * law.cohesion / tau0;
+    const double tau0 = std::sqrt(law.surface.cohesion * law.surface.cohesion - law.surface.apex * law.surface.apex);
+    const double m = law.surface.tan_psi * law.surface.cohesion / tau0;
     for (const double sign : {1.0, -1.0}) {
       TractionSeparationTest t;
       for (int k = 0; k <= 10; ++k) t.rows.push_back(at_traction(0.0, sign * k * 3e-6));

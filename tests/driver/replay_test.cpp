@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "fpz/capture.hpp"
+#include "fpz/update.hpp"
 #include "helpers.hpp"
 
 namespace fpz::driver {

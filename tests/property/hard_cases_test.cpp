@@ -4,7 +4,10 @@
 #include <cstring>
 #include <limits>
 
-#include "fpz/double_scale.hpp"
+#include "fpz/cohesive_update.hpp"
+#include "fpz/energy.hpp"
+#include "fpz/tangent.hpp"
+#include "fpz/update.hpp"
 #include "support/paths.hpp"
 
 namespace fpz::test {
@@ -47,13 +50,13 @@ template <int Dim>
 void expect_sound(const Material<double>& m, const State<double, Dim>& s) {
   ASSERT_TRUE(finite(s));
   if (!s.cracked) return;
-  const double c0 = m.law.cohesion;
+  const double c0 = m.law.surface.cohesion;
   const double w = s.crack.integrity;
   EXPECT_GE(w, 0.0);
   EXPECT_LE(w, 1.0);
   const double ts2 = s.crack.traction.template tail<Dim - 1>().squaredNorm();
   const double size = c0 + s.crack.traction.norm();
-  EXPECT_LE(yield_value(m.law, s.crack.traction[0], ts2, w), 1e-9 * size);
+  EXPECT_LE(m.law.surface.value_at(s.crack.traction[0], ts2, w), 1e-9 * size);
   const Vec<double, Dim> t = local_traction<double, Dim>(s.frame, s.stress);
   // Continuity to rounding of the bulk stress that cancels against the jump's.
   const double cancel = (m.bulk.lambda + 2.0 * m.bulk.mu) * (s.strain.norm() + s.crack.jump.norm() / m.rve_length);
@@ -63,7 +66,7 @@ void expect_sound(const Material<double>& m, const State<double, Dim>& s) {
 /// A cracked state with damage: mode I first, a little shear.
 State2 damaged(const Material<double>& m, double opening = 4e-3) {
   State2 s;
-  const double scale = m.law.tensile_strength / m.bulk.mu / (0.6 / 160.0);
+  const double scale = m.law.surface.tensile_strength / m.bulk.mu / (0.6 / 160.0);
   for (int k = 0; k < 20; ++k) {
     const Tensor<double, 2> d = strain2(opening * scale / 20, 0, 0.1 * opening * scale / 20);
     EXPECT_TRUE(update<2>(m, with(Method::accurate), s, d, s).ok());

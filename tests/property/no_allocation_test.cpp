@@ -18,7 +18,8 @@ extern long eigen_failures;
 #include <cstdlib>
 #include <new>
 
-#include "fpz/double_scale.hpp"
+#include "fpz/tangent.hpp"
+#include "fpz/update.hpp"
 #include "support/paths.hpp"
 
 namespace fpz::test {

@@ -3,7 +3,10 @@
 
 #include <random>
 
-#include "fpz/double_scale.hpp"
+#include "fpz/energy.hpp"
+#include "fpz/onset.hpp"
+#include "fpz/tangent.hpp"
+#include "fpz/update.hpp"
 #include "support/paths.hpp"
 
 namespace fpz::test {
@@ -53,8 +56,8 @@ Tensor<double, Dim> random_step(Rng& rng, Tensor<double, Dim>& direction, double
 
 template <int Dim>
 double yield_of(const Material<double>& m, const State<double, Dim>& s) {
-  return yield_value(m.law, s.crack.traction[0], s.crack.traction.template tail<Dim - 1>().squaredNorm(),
-                     s.crack.integrity);
+  return m.law.surface.value_at(s.crack.traction[0], s.crack.traction.template tail<Dim - 1>().squaredNorm(),
+                                s.crack.integrity);
 }
 
 /// A strain that opens a crack of about ten times delta0 over the whole walk.
@@ -66,14 +69,14 @@ template <int Dim>
 void expect_sound(const Material<double>& m, const State<double, Dim>& s, const State<double, Dim>& before) {
   ASSERT_TRUE(s.stress.allFinite() && s.crack.plastic_jump.allFinite() && std::isfinite(s.crack.integrity));
   if (!s.cracked) {
-    ASSERT_LT(critical_plane<Dim>(m, s.stress).failure_value, 1e-12 * m.law.cohesion);
+    ASSERT_LT(critical_plane<Dim>(m, s.stress).failure_value, 1e-12 * m.law.surface.cohesion);
     return;
   }
-  const double size = m.law.cohesion + s.crack.traction.norm();
+  const double size = m.law.surface.cohesion + s.crack.traction.norm();
   // Relative to the strength that is left; Kn times the rounding of the jumps limits it.
   const double jumps = s.crack.jump.norm() + s.crack.offset.norm() + s.crack.plastic_jump.norm();
   const double stiffness = s.crack.traction[0] < 0.0 ? m.law.kn : m.law.kn * s.crack.integrity;
-  const double strength = m.law.cohesion * s.crack.integrity + s.crack.traction.norm();
+  const double strength = m.law.surface.cohesion * s.crack.integrity + s.crack.traction.norm();
   ASSERT_LE(yield_of(m, s), 1e-8 * size);
   if (s.crack.integrity > 1e-12) {  // below, the strength left is under 1e-6 Pa
     ASSERT_LE(yield_of(m, s), 1e-8 * strength + 1e-15 * stiffness * jumps);
@@ -84,10 +87,11 @@ void expect_sound(const Material<double>& m, const State<double, Dim>& s, const 
   if (!before.cracked) return;
   ASSERT_LE(s.crack.integrity, before.crack.integrity);
   ASSERT_GE(s.crack.slip, before.crack.slip);
-  ASSERT_GE(s.crack.dissipated, before.crack.dissipated - 1e-14 * m.law.tensile_strength * m.law.delta0);
+  ASSERT_GE(s.crack.dissipated,
+            before.crack.dissipated - 1e-14 * m.law.surface.tensile_strength * m.law.softening.length());
   // eq 47: D follows from the inelastic jump; up_n falls never (dilation).
-  ASSERT_GE(s.crack.plastic_jump[0], before.crack.plastic_jump[0] - 1e-14 * m.law.delta0);
-  const double w = std::exp(-(s.crack.plastic_jump[0] + s.crack.slip) / m.law.delta0);
+  ASSERT_GE(s.crack.plastic_jump[0], before.crack.plastic_jump[0] - 1e-14 * m.law.softening.length());
+  const double w = std::exp(-(s.crack.plastic_jump[0] + s.crack.slip) / m.law.softening.length());
   // In `accurate` D is integrated and up_n follows from continuity: they agree to its tolerance (1e-6 here).
   ASSERT_NEAR(s.crack.integrity, w, 1e-6 * w);
 }
@@ -146,7 +150,7 @@ double distance(const Parameters& p, const State<double, Dim>& a, const State<do
 template <int Dim>
 double contact_factor(const Material<double>& m, const State<double, Dim>& s) {
   if (!s.cracked || s.crack.integrity > 1e-3) return 1.0;
-  return std::max(1.0, m.law.delta0 / (m.series.normal * m.law.tensile_strength));
+  return std::max(1.0, m.law.softening.length() / (m.series.normal * m.law.surface.tensile_strength));
 }
 
 /// Visits random walks of safe materials: visit(setup, material, increments).

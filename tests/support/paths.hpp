@@ -6,7 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "fpz/double_scale.hpp"
+#include "fpz/energy.hpp"
+#include "fpz/update.hpp"
 #include "support/materials.hpp"
 #include "support/reference_integrator.hpp"
 

@@ -2,7 +2,8 @@
 
 #include <cmath>
 
-#include "fpz/double_scale.hpp"
+#include "fpz/tangent.hpp"
+#include "fpz/update.hpp"
 #include "support/materials.hpp"
 
 namespace fpz::test {

@@ -1,11 +1,13 @@
 // Fracture onset: closed form against a search over planes, values of the paper's materials, and the point of the path
 // at which the crack appears.
 
+#include "fpz/onset.hpp"
+
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "fpz/double_scale.hpp"
+#include "fpz/update.hpp"
 #include "support/paths.hpp"
 
 namespace fpz::test {
@@ -62,9 +64,9 @@ void expect_scan_converges(double finest) {
     for (const double resolution : {4.0, 1.0, finest}) {
       const Plane<double, Dim> plane = scan_planes<Dim>(m, s, resolution);
       // |d2F/dtheta2| <= 4 r tan(phi) + (4 r)^2/A at most; 2 |s| stands for r. 3-D: two angles.
-      const double angle = 0.5 * resolution * fpz::degree * (Dim == 2 ? 1.0 : 1.5);
-      const double curvature = 8.0 * s.norm() + 16.0 * s.squaredNorm() / m.law.apex;
-      EXPECT_LE(plane.failure_value, exact + 1e-9 * m.law.cohesion);
+      const double angle = 0.5 * resolution * degree * (Dim == 2 ? 1.0 : 1.5);
+      const double curvature = 8.0 * s.norm() + 16.0 * s.squaredNorm() / m.law.surface.apex;
+      EXPECT_LE(plane.failure_value, exact + 1e-9 * m.law.surface.cohesion);
       EXPECT_GE(plane.failure_value, exact - 0.5 * curvature * angle * angle);
     }
   }
@@ -137,7 +139,7 @@ void expect_onset_independent_of_increment(const Tensor<double, Dim>& direction,
     Vec<double, Dim> onset = fine.crack.offset * m.law.ks;
     onset[0] = fine.crack.offset[0] * m.law.kn;
     const double ts2 = onset.template tail<Dim - 1>().squaredNorm();
-    EXPECT_NEAR(yield_value(m.law, onset[0], ts2, 1.0), 0.0, 1e-12 * p.cohesion);
+    EXPECT_NEAR(m.law.surface.value_at(onset[0], ts2, 1.0), 0.0, 1e-12 * p.cohesion);
     for (const double size : {0.7, 1.0, 3.0, 17.0, 100.0}) {
       State<double, Dim> coarse;
       Report r;
@@ -166,9 +168,9 @@ TEST(Onset, IsFoundInsideTheIncrement) {
 TEST(Onset, HugeIsotropicTensionCracksDespiteTheSpuriousBranch) {
   const Parameters p = table1(1e-3);
   const Material<double> m2 = make_material(p, Setting::plane_strain);
-  const double limit = 2.0 * p.cohesion / m2.law.tan_phi - p.tensile_strength;
+  const double limit = 2.0 * p.cohesion / m2.law.surface.tan_phi - p.tensile_strength;
   for (const double tension : {1.01 * limit, 10.0 * limit, 1000.0 * limit}) {
-    ASSERT_LT(yield_paper(m2.law, tension, 0.0, 1.0), 0.0);
+    ASSERT_LT(m2.law.surface.printed_value(tension, 0.0, 1.0), 0.0);
     const double strain = tension / (2.0 * (m2.bulk.lambda + m2.bulk.mu));
     State2 s2;
     EXPECT_TRUE(update<2>(m2, Options{}, s2, strain2(strain, strain, 0), s2).ok());

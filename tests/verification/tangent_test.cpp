@@ -1,9 +1,13 @@
 // Derivatives of the discrete updates: against ceres::Jet through the same templates (which checks the bookkeeping of
 // the chain rule) and against central differences of the plain update (which checks everything).
+#include "fpz/tangent.hpp"
+
 #include <ceres/jet.h>
 #include <gtest/gtest.h>
 
-#include "fpz/double_scale.hpp"
+#include "fpz/energy.hpp"
+#include "fpz/update.hpp"
+#include "fpz/update_any_scalar.hpp"
 #include "support/paths.hpp"
 
 namespace fpz::test {
@@ -194,7 +198,7 @@ void check_cohesive_tangent(Method method) {
   const Options o = options_for(method);
   Vec<double, Dim> onset = Vec<double, Dim>::Zero();
   onset[1] = 0.3e6;
-  onset[0] = (law.cohesion - std::hypot(onset[1], law.apex)) / law.tan_phi;
+  onset[0] = (law.surface.cohesion - std::hypot(onset[1], law.surface.apex)) / law.surface.tan_phi;
   CohesiveState<double, Dim> z = cracked_at<double, Dim>(law, onset);
   const double moves[][3] = {{2e-6, 1e-6, 1e-6},  {5e-6, 1e-6, -1e-6}, {-2e-9, -1e-9, 0.0}, {4e-6, -9e-6, 2e-6},
                              {-3e-5, 1e-6, 1e-6}, {0.0, 2e-5, 4e-6},   {1e-7, -3e-5, 1e-5}, {6e-5, 1e-5, 1e-6}};
@@ -211,8 +215,8 @@ void check_cohesive_tangent(Method method) {
       EXPECT_TRUE(cohesive_update(law, o, z, d, s).ok());
       return s.traction;
     };
-    const Differences<Dim, Dim> fd(f, 1e-6 * law.delta0);
-    const double size = law.tensile_strength / law.delta0 + tangent.cwiseAbs().maxCoeff();
+    const Differences<Dim, Dim> fd(f, 1e-6 * law.softening.length());
+    const double size = law.surface.tensile_strength / law.softening.length() + tangent.cwiseAbs().maxCoeff();
     EXPECT_LE((fd.central - tangent).cwiseAbs().maxCoeff(), 2e-6 * size + 2.0 * fd.error.maxCoeff())
         << to_string(method) << "\n"
         << fd.central << "\ntangent\n"

@@ -5,7 +5,8 @@
 #include <limits>
 #include <span>
 
-#include "fpz/double_scale.hpp"
+#include "fpz/tangent.hpp"
+#include "fpz/update.hpp"
 
 namespace fpz {
 

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "fpz/double_scale.hpp"
+#include "fpz/options.hpp"
 #include "fpz/parameters.hpp"
 #include "fpz/state_fields.hpp"
 

@@ -1,4 +1,4 @@
-// Fracture onset: the plane on which the yield value F (yield.hpp) first reaches zero (section 4.1).
+// Fracture onset: the plane on which the yield value F (law/hyperbola.hpp) first reaches zero (section 4.1).
 //
 // Two ways to the same answer: the closed form (docs/equations.md) and the paper's scan over plane orientations. Plane
 // convention. In 2-D the plane contains the out-of-plane axis. Two conjugate planes are equally critical whenever the
@@ -10,10 +10,11 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "fpz/material.hpp"
 #include "fpz/options.hpp"
-#include "fpz/yield.hpp"
+#include "fpz/state.hpp"
 
 namespace fpz {
 
@@ -26,79 +27,7 @@ struct Plane {
   T failure_value = T(-1e300);  ///< F on the plane, Pa; >= 0 means fracture
 };
 
-/// Local frame from the normal: s1 is n turned by +90 degrees about z (2-D), or s1 = s2 x n with the given s2 (3-D).
-template <class T>
-[[nodiscard]] Mat<T, 2, 2> frame_from(const Vec<T, 2>& n) {
-  Mat<T, 2, 2> r;
-  r << n[0], n[1], -n[1], n[0];
-  return r;
-}
-template <class T>
-[[nodiscard]] Mat<T, 3, 3> frame_from(const Vec<T, 3>& n, const Vec<T, 3>& s2) {
-  Mat<T, 3, 3> r;
-  for (int k = 0; k < 3; ++k) {
-    r(0, k) = n[k];
-    r(1, k) = s2[(k + 1) % 3] * n[(k + 2) % 3] - s2[(k + 2) % 3] * n[(k + 1) % 3];
-    r(2, k) = s2[k];
-  }
-  return r;
-}
-
-/// Traction R sigma n on the plane of a frame (eq 55), local components, Pa. Scalar arithmetic throughout: packed loads
-/// of freshly stored components would stall, and this is called twice in every update of a cracked point.
-template <class T, int Dim>
-[[nodiscard]] FPZ_INLINE Vec<T, Dim> local_traction(const Mat<T, Dim, Dim>& frame, const Tensor<T, Dim>& stress) {
-  Vec<T, Dim> global, local;
-  if constexpr (Dim == 2) {
-    global[0] = stress[0] * frame(0, 0) + stress[2] * frame(0, 1);
-    global[1] = stress[2] * frame(0, 0) + stress[1] * frame(0, 1);
-  } else {
-    global[0] = stress[0] * frame(0, 0) + stress[3] * frame(0, 1) + stress[4] * frame(0, 2);
-    global[1] = stress[3] * frame(0, 0) + stress[1] * frame(0, 1) + stress[5] * frame(0, 2);
-    global[2] = stress[4] * frame(0, 0) + stress[5] * frame(0, 1) + stress[2] * frame(0, 2);
-  }
-  for (int i = 0; i < Dim; ++i) {
-    local[i] = frame(i, 0) * global[0];
-    for (int k = 1; k < Dim; ++k) local[i] += frame(i, k) * global[k];
-  }
-  return local;
-}
-
 namespace detail {
-
-/// Largest F over all planes of the circle with centre p and radius r, undamaged (Pa); interior plane or tensile
-/// vertex.
-template <class T, class P>
-[[nodiscard]] T largest_failure_value(const Material<P>& m, const T& p, const T& r) {
-  using std::sqrt;
-  const CohesiveLaw<P>& law = m.law;
-  if (value(r) > value(law.apex) * value(law.tan_phi)) {
-    return sqrt(r * r + law.apex * law.apex) / m.cos_phi + p * law.tan_phi - law.cohesion;
-  }
-  return (p + r - law.tensile_strength) * law.tan_phi;
-}
-
-/// Cosine and sine of the angle theta between the critical normal and the largest principal direction, theta in [0, 90)
-/// degrees.
-template <class T>
-struct Inclination {
-  T cosine = T(1.0);
-  T sine = T(0.0);
-};
-
-template <class T, class P>
-[[nodiscard]] Inclination<T> critical_inclination(const Material<P>& m, const T& r) {
-  using std::sqrt;
-  Inclination<T> i;
-  if (value(r) > value(m.law.apex) * value(m.law.tan_phi)) {
-    const T c = m.sin_phi * sqrt(r * r + m.law.apex * m.law.apex) / r;  // cos 2 theta
-    if (value(c) < 1.0) {
-      i.cosine = sqrt((1.0 + c) * 0.5);
-      i.sine = sqrt((1.0 - c) * 0.5);
-    }
-  }
-  return i;
-}
 
 /// Centre and radius of the in-plane Mohr circle, and the direction of its largest principal stress.
 template <class T>
@@ -226,17 +155,17 @@ template <int Dim, class T, class P>
       const Vec<double, 2> axis = preferred.template head<2>().normalized();
       c.axis = convert<T>(axis);
     }
-    const detail::Inclination<T> i = detail::critical_inclination(m, c.r);
+    const Inclination<T> i = m.law.surface.critical_inclination(c.r);
     Vec<T, 2> n, other;
     n << i.cosine * c.axis[0] - i.sine * c.axis[1], i.cosine * c.axis[1] + i.sine * c.axis[0];
     other << i.cosine * c.axis[0] + i.sine * c.axis[1], i.cosine * c.axis[1] - i.sine * c.axis[0];
     plane.frame = frame_from<T>(detail::second_is_preferred<2>(n, other, preferred) ? other : n);
-    plane.failure_value = detail::largest_failure_value(m, c.p, c.r);
+    plane.failure_value = m.law.surface.largest_value(c.p, c.r);
   } else {
     const detail::Principal<T> s = detail::principal_stresses(stress, preferred);
     const T p = (s.values[0] + s.values[2]) * 0.5;
     const T r = (s.values[0] - s.values[2]) * 0.5;
-    const detail::Inclination<T> i = detail::critical_inclination(m, r);
+    const Inclination<T> i = m.law.surface.critical_inclination(r);
     // Counter-clockwise about e2 turns e1 towards e2 x e1 = -e3.
     const Vec<T, 3> e1 = s.axes.col(0);
     const Vec<T, 3> e2 = s.axes.col(1);
@@ -244,7 +173,7 @@ template <int Dim, class T, class P>
     const Vec<T, 3> n = e1 * i.cosine - e3 * i.sine;
     const Vec<T, 3> other = e1 * i.cosine + e3 * i.sine;
     plane.frame = frame_from<T>(detail::second_is_preferred<3>(n, other, preferred) ? other : n, e2);
-    plane.failure_value = detail::largest_failure_value(m, p, r);
+    plane.failure_value = m.law.surface.largest_value(p, r);
   }
   plane.traction = local_traction<T, Dim>(plane.frame, stress);
   return plane;
@@ -257,13 +186,13 @@ template <int Dim, class T, class P>
                                         const Vec<double, 3>& preferred = Vec<double, 3>::Zero()) {
   const int steps = std::max(1, static_cast<int>(std::lround(180.0 / resolution_deg)));
   const Tensor<double, Dim> sv = convert<double>(stress);
-  const auto lawv = values(m.law);
+  const auto surface = m.law.surface.values();
   Mat<double, Dim, Dim> best = Mat<double, Dim, Dim>::Identity();
   double best_value = -1e300;
-  const double tie = 1e-12 * (value(m.law.cohesion) + sv.template lpNorm<Eigen::Infinity>());
+  const double tie = 1e-12 * (surface.cohesion + sv.template lpNorm<Eigen::Infinity>());
   const auto consider = [&](const Mat<double, Dim, Dim>& frame) {
     const Vec<double, Dim> t = local_traction<double, Dim>(frame, sv);
-    const double f = yield_value(lawv, t[0], t.template tail<Dim - 1>().squaredNorm(), 1.0);
+    const double f = surface.value_at(t[0], t.template tail<Dim - 1>().squaredNorm(), 1.0);
     const Vec<double, Dim> n = frame.row(0).transpose();
     const Vec<double, Dim> old = best.row(0).transpose();
     if (f > best_value + tie || (f > best_value - tie && detail::second_is_preferred<Dim>(old, n, preferred))) {
@@ -293,36 +222,15 @@ template <int Dim, class T, class P>
   Plane<T, Dim> plane;
   plane.frame = convert<T>(best);
   plane.traction = local_traction<T, Dim>(plane.frame, stress);
-  plane.failure_value = yield_value(m.law, plane.traction[0],
-                                    squared_norm(Vec<T, Dim - 1>(plane.traction.template tail<Dim - 1>())), 1.0);
+  plane.failure_value = m.law.surface.value_at(
+      plane.traction[0], squared_norm(Vec<T, Dim - 1>(plane.traction.template tail<Dim - 1>())), 1.0);
   return plane;
 }
 
 /// Cheap test that a stress is inside the onset surface. False means "look closer", true is certain.
 template <int Dim, class P>
-[[nodiscard]] inline bool surely_intact(const Material<P>& m, const Tensor<double, Dim>& s) {
-  const double sin_phi = value(m.sin_phi);
-  const double strength = value(m.law.cohesion) * value(m.cos_phi);
-  const double apex = value(m.law.apex);
-  if constexpr (Dim == 2) {
-    const double p = 0.5 * (s[0] + s[1]);
-    const double d = 0.5 * (s[0] - s[1]);
-    const double room = strength - p * sin_phi;
-    return room > 0.0 && d * d + s[2] * s[2] + apex * apex < room * room;
-  } else {
-    // r <= sqrt(J2) and centre <= mean + sqrt(J2)/(2 sqrt 3) for the outer Mohr circle.
-    const double mean = (s[0] + s[1] + s[2]) / 3.0;
-    const double a = s[0] - mean;
-    const double b = s[1] - mean;
-    const double c = s[2] - mean;
-    const double j2 = 0.5 * (a * a + b * b + c * c) + s[3] * s[3] + s[4] * s[4] + s[5] * s[5];
-    constexpr double k = 0.28867513459481287;  // 1/(2 sqrt 3)
-    const double room = strength - mean * sin_phi;
-    const double shape = 1.0 + k * sin_phi;
-    if (room > 0.0 && (j2 + apex * apex) * shape * shape < room * room) return true;  // without the root below
-    const double less = room - k * std::sqrt(j2) * sin_phi;
-    return less > 0.0 && j2 + apex * apex < less * less;
-  }
+[[nodiscard]] FPZ_INLINE bool surely_intact(const Material<P>& m, const Tensor<double, Dim>& s) {
+  return m.law.surface.template surely_intact<Dim>(s);
 }
 
 /// Where on the straight stress path begin + x (end - begin), x in [0, 1], the failure value reaches zero; the largest
@@ -334,13 +242,7 @@ template <int Dim, class T, class P>
   const auto at = [&](double x) { return critical_plane<Dim>(m, Tensor<T, Dim>(begin + rate * T(x))); };
   // Slope of the largest F: the plane is stationary, so only its traction changes (envelope theorem).
   const auto slope = [&](const Plane<T, Dim>& plane) {
-    const Vec<T, Dim> dt = local_traction<T, Dim>(plane.frame, rate);
-    const double ts2 = value(squared_norm(Vec<T, Dim - 1>(plane.traction.template tail<Dim - 1>())));
-    double s = value(dt[0]) * value(m.law.tan_phi);
-    for (int k = 1; k < Dim; ++k) {
-      s += value(plane.traction[k]) * value(dt[k]) / std::sqrt(ts2 + value(m.law.apex) * value(m.law.apex));
-    }
-    return s;
+    return m.law.surface.value_rate(plane.traction, local_traction<T, Dim>(plane.frame, rate));
   };
   if (value(at(0.0).failure_value) >= 0.0) return T(0.0);
   double x = 1.0;
@@ -359,6 +261,41 @@ template <int Dim, class T, class P>
   } else {
     return T(T(x) - plane.failure_value / slope(plane));
   }
+}
+
+/// How far the stress can go along `rate` before a plane fails, in units of `rate`: sought from `first` on by doubling
+/// up to `last`; nothing when no plane fails there.
+template <int Dim>
+[[nodiscard]] std::optional<double> distance_to_onset(const Material<double>& m, const Tensor<double, Dim>& stress,
+                                                      const Tensor<double, Dim>& rate, double first, double last) {
+  for (double reach = first; reach < last; reach *= 2.0) {
+    const Tensor<double, Dim> far = stress + reach * rate;
+    if (critical_plane<Dim>(m, far).failure_value >= 0.0) return reach * onset_fraction<Dim>(m, stress, far);
+  }
+  return std::nullopt;
+}
+
+/// Moves an uncracked point elastically by the fraction x of the strain increment `dstrain`, whose stress is `dstress`.
+template <int Dim, class T>
+void go_elastically(State<T, Dim>& s, const Tensor<T, Dim>& dstrain, const Tensor<T, Dim>& dstress, const T& x) {
+  s.strain += dstrain * x;
+  s.stress += dstress * x;
+}
+
+/// The plane search chosen by the options.
+template <int Dim, class T, class P>
+[[nodiscard]] Plane<T, Dim> find_plane(const Material<P>& m, const Options& o, const Tensor<T, Dim>& stress) {
+  return o.scan_resolution_deg > 0.0 ? scan_planes<Dim>(m, stress, o.scan_resolution_deg, o.preferred_normal)
+                                     : critical_plane<Dim>(m, stress, o.preferred_normal);
+}
+
+/// Cracks a point whose stress has reached the onset surface, on its critical plane.
+template <int Dim, class T, class P>
+void open_crack(const Material<P>& m, const Options& o, State<T, Dim>& s) {
+  const Plane<T, Dim> plane = find_plane<Dim>(m, o, s.stress);
+  s.cracked = true;
+  s.frame = plane.frame;
+  s.crack = cracked_at<T, Dim>(m.law, plane.traction);
 }
 
 }  // namespace fpz

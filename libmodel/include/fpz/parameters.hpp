@@ -11,7 +11,11 @@
 
 namespace fpz {
 
-/// The eleven inputs of the model (Tables 1-3 of the paper). SI units, angles in degrees.
+/// Which softening law a material has: a value of the list in law/softening.hpp, the default first.
+enum class SofteningKind : std::uint8_t {};
+
+/// The eleven numbers of the model (Tables 1-3 of the paper) and the choice of its softening. SI units, angles in
+/// degrees.
 template <class T>
 struct BasicParameters {
   T young_modulus{};       ///< E, Pa
@@ -21,10 +25,11 @@ struct BasicParameters {
   T cohesion{};            ///< c0, Pa
   T friction_angle_deg{};  ///< phi, degrees
   T dilation_angle_deg{};  ///< psi, degrees
-  T delta0{};              ///< delta0 of eq 47, m
+  T delta0{};              ///< delta0 of eq 47, m: mode I fracture energy over tensile strength, whatever the softening
   T normal_stiffness{};    ///< Kn, Pa/m
   T shear_stiffness{};     ///< Ks, Pa/m
   T rve_length{};          ///< H, m
+  SofteningKind softening{};
 };
 using Parameters = BasicParameters<double>;
 

@@ -2,7 +2,7 @@
 // states.
 #pragma once
 
-#include "fpz/double_scale.hpp"
+#include "fpz/state.hpp"
 
 namespace fpz {
 

@@ -1,6 +1,6 @@
 // The energies of a run, summed over the particles in their order.
 #include "engine.hpp"
-#include "inverse_elasticity.hpp"
+#include "fpz/energy.hpp"
 
 namespace fpz::sph::detail {
 

@@ -2,8 +2,9 @@
 #include <cmath>
 
 #include "body.hpp"
+#include "fpz/energy.hpp"
 #include "fpz/sph/band.hpp"
-#include "inverse_elasticity.hpp"
+#include "fpz/update.hpp"
 
 namespace fpz::sph::detail {
 

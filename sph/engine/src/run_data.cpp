@@ -93,9 +93,9 @@ void RunData<Dim>::set_constants() {
   v.step = dt;
   v.lambda = material.bulk.lambda;
   v.mu = material.bulk.mu;
-  v.sin_phi = material.sin_phi;
-  v.strength = material.law.cohesion * material.cos_phi;
-  v.apex = material.law.apex;
+  v.sin_phi = material.law.surface.sin_phi;
+  v.strength = material.law.surface.cohesion * material.law.surface.cos_phi;
+  v.apex = material.law.surface.apex;
   v.weight_scale = 1.0 / o.mass_scale;
   v.rest_density = setup.parameters.density;
   v.sound_speed = std::sqrt(setup.parameters.young_modulus / setup.parameters.density);

@@ -1,6 +1,8 @@
 // What all parts of a run share: set-up, constants, clock, particles, ledger, and how work is dealt out to threads.
 #pragma once
 
+#include "fpz/material.hpp"
+#include "fpz/options.hpp"
 #include "fpz/sph/simulation.hpp"
 #include "work_ledger.hpp"
 

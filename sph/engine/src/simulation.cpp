@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "engine.hpp"
+#include "fpz/energy.hpp"
 
 namespace fpz::sph {
 

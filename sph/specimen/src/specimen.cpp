@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "fpz/energy.hpp"
 #include "fpz/io/input_error.hpp"
 
 namespace fpz::specimen {

@@ -1,6 +1,8 @@
 // Cracked particles: the library's curve, separation, energy.
 #include <cmath>
 
+#include "fpz/energy.hpp"
+#include "fpz/update.hpp"
 #include "setups.hpp"
 
 namespace fpz::sph::test {

@@ -1,4 +1,5 @@
 // What the corrected gradient and its adjoint do exactly.
+#include <Eigen/LU>
 #include <cmath>
 
 #include "setups.hpp"

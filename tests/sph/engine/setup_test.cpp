@@ -3,6 +3,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "fpz/material.hpp"
 #include "setups.hpp"
 
 namespace fpz::sph::test {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <vector>
 
+#include "fpz/material.hpp"
 #include "setups.hpp"
 
 namespace fpz::sph::test {

@@ -1,4 +1,5 @@
 // Disc and ring under diametral load against the exact series of elasticity: whole stress fields, order of convergence.
+#include <Eigen/LU>
 #include <cmath>
 #include <numbers>
 

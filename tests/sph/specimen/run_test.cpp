@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "fpz/energy.hpp"
 #include "fpz/io/csv.hpp"
 #include "fpz/io/input_error.hpp"
 #include "fpz/io/output.hpp"

@@ -11,7 +11,8 @@
 #include <vector>
 
 #include "fpz/calibration/elastic_body.hpp"
-#include "fpz/cohesive_state.hpp"
+#include "fpz/law/cohesive_law.hpp"
+#include "fpz/state.hpp"
 
 namespace fpz::calibration {
 

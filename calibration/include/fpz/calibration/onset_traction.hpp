@@ -35,12 +35,13 @@ template <class T>
     ray /= size;
   }
   // sqrt(l^2 ray_s^2 + A^2) = c0 - l ray_n tan(phi), squared; the root on the physical branch, without cancellation.
-  const T free = (law.cohesion - law.apex) * (law.cohesion + law.apex);
-  const T b = law.cohesion * ray[0] * law.tan_phi;
-  const T pull = ray[0] * law.tan_phi * law.apex;
+  const T free = (law.surface.cohesion - law.surface.apex) * (law.surface.cohesion + law.surface.apex);
+  const T b = law.surface.cohesion * ray[0] * law.surface.tan_phi;
+  const T pull = ray[0] * law.surface.tan_phi * law.surface.apex;
   const T below = b + sqrt(ray[1] * ray[1] * free + pull * pull);
   if (!(value(below) > 0.0) ||
-      (value(ray[0]) < 0.0 && value(ray[1] * ray[1]) <= value(ray[0] * ray[0] * law.tan_phi * law.tan_phi)))
+      (value(ray[0]) < 0.0 &&
+       value(ray[1] * ray[1]) <= value(ray[0] * ray[0] * law.surface.tan_phi * law.surface.tan_phi)))
     return std::nullopt;
   return Vec<T, 2>(ray * T(free / below));
 }

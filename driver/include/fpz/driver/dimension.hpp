@@ -5,7 +5,7 @@
 #include <array>
 #include <type_traits>
 
-#include "fpz/double_scale.hpp"
+#include "fpz/energy.hpp"
 
 namespace fpz::driver {
 

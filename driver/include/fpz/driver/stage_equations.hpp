@@ -7,9 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "fpz/double_scale.hpp"
 #include "fpz/driver/dimension.hpp"
 #include "fpz/driver/path_file.hpp"
+#include "fpz/energy.hpp"
+#include "fpz/tangent.hpp"
 
 namespace fpz::driver {
 
@@ -46,7 +47,7 @@ class StageEquations {
   /// `begin` is the state at the begin of the stage. Throws InputError when the equations do not determine the strains.
   template <class P>
   StageEquations(const Material<P>& m, const Stage& stage, const State<T, Dim>& begin)
-      : stress_scale_(value(m.law.tensile_strength)),
+      : stress_scale_(value(m.law.surface.tensile_strength)),
         strain_scale_(stress_scale_ / (value(m.bulk.lambda) + 2.0 * value(m.bulk.mu))) {
     set_components(stage, begin);
     set_constraints(m, stage, begin);

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "fpz/double_scale.hpp"
 #include "fpz/driver/run.hpp"
+#include "fpz/state.hpp"
 
 namespace fpz::driver {
 

@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "fpz/double_scale.hpp"
 #include "fpz/sph/lanes.hpp"
+#include "fpz/state.hpp"
 
 namespace fpz::sph {
 

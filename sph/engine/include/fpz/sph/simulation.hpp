@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "fpz/parameters.hpp"
 #include "fpz/sph/arrangement.hpp"
 #include "fpz/sph/energy.hpp"
 #include "fpz/sph/group.hpp"

@@ -1,4 +1,4 @@
-#include "fpz/cohesive_law.hpp"
+#include "fpz/cohesive_update.hpp"
 
 #include <gtest/gtest.h>
 

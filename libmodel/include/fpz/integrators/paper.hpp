@@ -5,7 +5,7 @@
 
 #include <Eigen/LU>
 
-#include "fpz/cohesive_state.hpp"
+#include "fpz/integrators/zone.hpp"
 #include "fpz/options.hpp"
 
 namespace fpz::detail {
@@ -22,13 +22,13 @@ struct PaperDerivatives {
   T denominator;       ///< f_t.P K g_t - f_t.(dt/dD) R - (df/dD) R
 };
 
-template <class T, int Dim, class P>
-[[nodiscard]] PaperDerivatives<T, Dim> paper_derivatives(const CohesiveLaw<P>& law, const Vec<T, Dim>& t, const T& w) {
+template <class T, int Dim, class Law>
+[[nodiscard]] PaperDerivatives<T, Dim> paper_derivatives(const Law& law, const Vec<T, Dim>& t, const T& w) {
   using std::sqrt;
   PaperDerivatives<T, Dim> d;
   const bool tension = value(t[0]) >= 0.0;
-  d.f_t[0] = 2.0 * law.tan_phi * (law.cohesion * w - t[0] * law.tan_phi);
-  d.g_t[0] = 2.0 * law.tan_psi * (law.cohesion * w - t[0] * law.tan_psi);
+  d.f_t[0] = 2.0 * law.surface.tan_phi * (law.surface.cohesion * w - t[0] * law.surface.tan_phi);
+  d.g_t[0] = 2.0 * law.surface.tan_psi * (law.surface.cohesion * w - t[0] * law.surface.tan_psi);
   d.secant[0] = tension ? T(w * law.kn) : T(law.kn);
   d.t_d[0] = tension ? T(-t[0] / w) : T(0.0);
   T slip2 = T(0.0);
@@ -39,25 +39,26 @@ template <class T, int Dim, class P>
     slip2 += d.g_t[k] * d.g_t[k];
   }
   const T slip = value(slip2) > 0.0 ? T(sqrt(slip2)) : T(0.0);
-  d.r = -integrity_slope(law, w) * (d.g_t[0] + slip);
-  d.f_d = 2.0 * law.cohesion * law.tan_phi * (2.0 * law.tensile_strength * w - t[0]) -
-          2.0 * law.tan_phi * law.tan_phi * law.tensile_strength * law.tensile_strength * w;
+  d.r = -law.softening.slope(law.softening.piece(value(w)), w) * (d.g_t[0] + slip);
+  d.f_d =
+      2.0 * law.surface.cohesion * law.surface.tan_phi * (2.0 * law.surface.tensile_strength * w - t[0]) -
+      2.0 * law.surface.tan_phi * law.surface.tan_phi * law.surface.tensile_strength * law.surface.tensile_strength * w;
   d.denominator = -d.f_d * d.r;
   for (int k = 0; k < Dim; ++k) d.denominator += d.f_t[k] * (d.secant[k] * d.g_t[k] - d.t_d[k] * d.r);
   return d;
 }
 
 /// Algorithm 1 on a jump increment `du`: traction, plastic jump, slip and integrity are updated in place.
-template <class T, int Dim, class P>
-void paper_return(const CohesiveLaw<P>& law, CohesiveState<T, Dim>& z, const Vec<T, Dim>& du) {
+template <class T, int Dim, class Law>
+void paper_return(const Law& law, CohesiveState<T, Dim>& z, const Vec<T, Dim>& du) {
   using std::sqrt;
   const PaperDerivatives<T, Dim> old = paper_derivatives(law, z.traction, z.integrity);
   for (int k = 0; k < Dim; ++k) z.traction[k] += old.secant[k] * du[k];  // steps 1, 4
   z.jump += du;
   T ts2 = T(0.0);
   for (int k = 1; k < Dim; ++k) ts2 += z.traction[k] * z.traction[k];
-  const T f = yield_paper(law, z.traction[0], ts2, z.integrity);  // step 2
-  if (value(f) < 0.0) return;                                     // step 3
+  const T f = law.surface.printed_value(z.traction[0], ts2, z.integrity);  // step 2
+  if (value(f) < 0.0) return;                                              // step 3
   const PaperDerivatives<T, Dim> d = paper_derivatives(law, z.traction, z.integrity);
   const T multiplier = f / d.denominator;  // step 6, eq 53
   const T dd = multiplier * d.r;           // step 8
@@ -79,21 +80,21 @@ void paper_return(const CohesiveLaw<P>& law, CohesiveState<T, Dim>& z, const Vec
 /// Whether a return ended where it should: on its yield surface to 1 % of sigma_t0 if it yielded, not outside if it did
 /// not, with an integrity in (0, 1] that did not grow. The printed algorithm checks none of these, and can end far from
 /// the surface or on the spurious branch of eq 48.
-template <class T, int Dim, class P>
-[[nodiscard]] bool paper_result_is_sound(const CohesiveLaw<P>& law, const CohesiveState<T, Dim>& begin,
+template <class T, int Dim, class Law>
+[[nodiscard]] bool paper_result_is_sound(const Law& law, const CohesiveState<T, Dim>& begin,
                                          const CohesiveState<T, Dim>& z) {
   double ts2 = 0.0;
   for (int k = 1; k < Dim; ++k) ts2 += value(z.traction[k]) * value(z.traction[k]);
   const double w = value(z.integrity);
   if (!(w > 0.0 && w <= value(begin.integrity))) return false;
-  const double f = yield_value(values(law), value(z.traction[0]), ts2, w);
-  const double band = 0.01 * value(law.tensile_strength);
+  const double f = law.surface.values().value_at(value(z.traction[0]), ts2, w);
+  const double band = 0.01 * value(law.surface.tensile_strength);
   return f <= band && (w == value(begin.integrity) || f >= -band);
 }
 
 /// Diagonal-plus-rank-one tangent K^t of eq 67 at the current state, or the secant stiffness inside the yield surface.
-template <class T, int Dim, class P>
-[[nodiscard]] Mat<T, Dim, Dim> paper_tangent(const CohesiveLaw<P>& law, const CohesiveState<T, Dim>& z) {
+template <class T, int Dim, class Law>
+[[nodiscard]] Mat<T, Dim, Dim> paper_tangent(const Law& law, const CohesiveState<T, Dim>& z) {
   const PaperDerivatives<T, Dim> d = paper_derivatives(law, z.traction, z.integrity);
   Mat<T, Dim, Dim> kt;
   for (int i = 0; i < Dim; ++i) {
@@ -108,10 +109,13 @@ template <class T, int Dim, class P>
 
 /// Algorithm 2, lines 17-37, on the drive d0 -> d1 (traction of the uncracked bulk times the series compliance). With
 /// zero compliance the jump itself is driven and Algorithm 1 runs once.
-template <class T, int Dim, class P>
-[[nodiscard]] Report integrate_paper(const CohesiveLaw<P>& law, const SeriesCompliance<P>& series,
-                                     const Options& options, const CohesiveState<T, Dim>& begin, const Vec<T, Dim>& d0,
-                                     const Vec<T, Dim>& d1, CohesiveState<T, Dim>& end) {
+template <class T, int Dim, class Law>
+[[nodiscard]] Report integrate_paper(const Zone<Law>& zone, const Options& options, const CohesiveState<T, Dim>& begin,
+                                     const Drive<T, Dim>& drive, CohesiveState<T, Dim>& end) {
+  const Law& law = zone.law;
+  const auto& series = zone.series;
+  const Vec<T, Dim>& d0 = drive.from;
+  const Vec<T, Dim>& d1 = drive.to;
   Report report;
   report.substeps = 1;
   report.iterations = 1;
@@ -155,8 +159,9 @@ template <class T, int Dim, class P>
     for (int k = 1; k < Dim; ++k) ts2 += z.traction[k] * z.traction[k];
     Mat<T, Dim, Dim> c = Mat<T, Dim, Dim>::Constant(T(0.0));
     // Line 29: eq 67 holds while the point yields; inside the surface the tangent is the secant stiffness.
-    const double inside = -1e-9 * value(law.cohesion) * value(law.cohesion);
-    if (value(yield_paper(law, z.traction[0], ts2, z.integrity)) > inside * value(z.integrity) * value(z.integrity)) {
+    const double inside = -1e-9 * value(law.surface.cohesion) * value(law.surface.cohesion);
+    if (value(law.surface.printed_value(z.traction[0], ts2, z.integrity)) >
+        inside * value(z.integrity) * value(z.integrity)) {
       c = paper_tangent(law, z);
     } else {
       const PaperDerivatives<T, Dim> d = paper_derivatives(law, z.traction, z.integrity);

@@ -9,7 +9,7 @@
 // the rate problem (no snap-back), numerator > 0 is loading.
 #pragma once
 
-#include "fpz/cohesive_state.hpp"
+#include "fpz/integrators/zone.hpp"
 
 namespace fpz::detail {
 
@@ -18,6 +18,7 @@ struct Branch {
   bool tension = true;
   double shear_sign = 1.0;  ///< sign of tau_s, with one shear component
   bool shear = true;        ///< false: tau_s is zero to rounding and stays so, and |tau_s| counts as constant
+  int piece = 0;            ///< of the softening law
 };
 
 /// Shear tractions below this fraction of A are rounding.
@@ -27,7 +28,7 @@ template <class T, int NS>
 struct RatePoint {
   using Shear = Vec<T, NS>;
   T w;
-  HyperbolaPoint<T> hyp;
+  SurfacePoint<T> hyp;
   ScaledCompliance<T> c;
   T shear;         ///< |tau_s| (signed continuation of it with one component)
   T inv;           ///< 1/(m_n + |tau_s|)
@@ -61,16 +62,15 @@ void end_yielding(CohesiveState<T, Dim>& z, const Vec<T, Dim>& drive, const Rate
 }
 
 /// Coefficients of the rate equations at (tau_s, w). `direction`: where tau_s heads, used only at tau_s = 0.
-template <int NS, class T, class P>
-[[nodiscard]] FPZ_INLINE RatePoint<T, NS> rate_point(const CohesiveLaw<P>& law, const SeriesCompliance<P>& series,
-                                                     const Branch& branch, const Vec<T, NS>& tau_s, const T& w,
-                                                     const Vec<T, NS>& direction) {
+template <int NS, class T, class Law>
+[[nodiscard]] FPZ_INLINE RatePoint<T, NS> rate_point(const Zone<Law>& zone, const Branch& branch,
+                                                     const Vec<T, NS>& tau_s, const T& w, const Vec<T, NS>& direction) {
   using std::sqrt;
   RatePoint<T, NS> r;
   r.w = w;
   const T s2 = squared_norm(tau_s);
-  r.hyp = hyperbola(law, s2);
-  r.c = scaled_compliance(law, series, w, branch.tension);
+  r.hyp = zone.law.surface.point(s2);
+  r.c = scaled_compliance(zone, w, branch.tension);
   if (!branch.shear) {
     r.shear = T(0.0);
     r.unit = Vec<T, NS>::Constant(T(0.0));
@@ -94,8 +94,8 @@ template <int NS, class T, class P>
   const T rest = flows ? T(joint * sum) : joint;
   r.inverse_cs = rest * r.hyp.radius;
   r.inverse_radius = rest * r.c.shear;
-  r.normal_s = tau_s * T(-law.cot_phi * r.inverse_radius);
-  const T w_a = integrity_slope(law, w);
+  r.normal_s = tau_s * zone.law.surface.slope(r.inverse_radius);
+  const T w_a = zone.law.softening.slope(branch.piece, w);
   r.m12 = r.hyp.flow_n * r.inv + w_a * r.c.normal_slope * r.hyp.normal;
   r.m22 = tau_s * T(r.inv + w_a * r.c.shear_slope);
   r.ratio = r.c.normal * r.inverse_cs;
@@ -128,12 +128,12 @@ template <class T, int NS>
 }
 
 /// Jacobian d(f)/d(tau_s, a) of the rates f: J = -M^-1 (dM/dy . f) with the coefficient matrix M of the rate equations.
-template <class T, int NS, class P>
-[[nodiscard]] Mat<T, NS + 1, NS + 1> rate_jacobian(const CohesiveLaw<P>& law, const RatePoint<T, NS>& r,
+template <class T, int NS, class Law>
+[[nodiscard]] Mat<T, NS + 1, NS + 1> rate_jacobian(const Law& law, const Branch& branch, const RatePoint<T, NS>& r,
                                                    const Vec<T, NS>& tau_s, const Rates<T, NS>& f) {
-  const T w_a = integrity_slope(law, r.w);
-  const T w_aa = integrity_slope(law, w_a);
-  const P tan2_psi = law.tan_psi * law.tan_psi;
+  const T w_a = law.softening.slope(branch.piece, r.w);
+  const T w_aa = law.softening.curvature(branch.piece, r.w);
+  const typename Law::Scalar flow_slope = law.surface.flow_slope();
   T s_dot = T(0.0);
   T g_dot = T(0.0);
   for (int k = 0; k < NS; ++k) {
@@ -141,17 +141,17 @@ template <class T, int NS, class P>
     g_dot += r.normal_s[k] * f.tau_s[k];
   }
   const T inv2 = r.inv * r.inv;
-  const T inverse_radius2 = r.inverse_radius * r.inverse_radius;
-  const T curvature = -law.cot_phi * r.inverse_radius;
+  const T bend = law.surface.bend(r.inverse_radius);
+  const T slope = law.surface.slope(r.inverse_radius);
   Mat<T, NS + 1, NS + 1> jac;
   for (int j = 0; j <= NS; ++j) {  // column j: derivative with respect to y_j of the products M(y) f
     T dn;
     Vec<T, NS> ds;
     if (j < NS) {
-      const T flow_j = -tan2_psi * r.normal_s[j];
+      const T flow_j = flow_slope * r.normal_s[j];
       const T fraction_j = (flow_j * r.shear - r.hyp.flow_n * r.unit[j]) * inv2;
       const T inv_j = -(flow_j + r.unit[j]) * inv2;
-      dn = r.c.normal * curvature * (f.tau_s[j] - tau_s[j] * s_dot * inverse_radius2) +
+      dn = r.c.normal * slope * (f.tau_s[j] - tau_s[j] * s_dot * bend) +
            f.a * (fraction_j + w_a * r.c.normal_slope * r.normal_s[j]);
       for (int k = 0; k < NS; ++k) {
         ds[k] = f.a * tau_s[k] * inv_j;
@@ -168,54 +168,19 @@ template <class T, int NS, class P>
   return jac;
 }
 
-/// Fraction x >= 0 at which the straight path (n, s) + x (dn, ds) leaves  |s|^2 + a^2 <= (c - n tan_phi)^2  on the
-/// physical branch, started inside (or on the surface, to rounding). Negative: it never leaves. Closed form.
-template <int NS, class T, class P>
-[[nodiscard]] FPZ_INLINE T exit_fraction(const P& tan_phi, const T& c, const T& a, const T& n, const Vec<T, NS>& s,
-                                         const T& dn, const Vec<T, NS>& ds) {
-  using std::sqrt;
-  const T l = c - n * tan_phi;
-  const T dl = -dn * tan_phi;
-  T ss = T(0.0);
-  T sd = T(0.0);
-  T dd = T(0.0);
-  T cross = T(0.0);
-  for (int k = 0; k < NS; ++k) {
-    ss += s[k] * s[k];
-    sd += s[k] * ds[k];
-    dd += ds[k] * ds[k];
-    const T twist = l * ds[k] - dl * s[k];
-    cross += twist * twist;
-  }
-  // qa x^2 + 2 qb x + qc = 0. For qa < 0 the leading terms of the discriminant cancel and are left out; otherwise it is
-  // a sum of non-negative terms.
-  const T qa = dd - dl * dl;
-  const T qb = sd - l * dl;
-  T qc = ss + a * a - l * l;
-  if (value(qc) > 0.0) qc = T(0.0);  // outside by rounding: the start is on the surface
-  T disc = qb * qb - qa * qc;
-  if (value(qa) < 0.0 && value(qc) < 0.0) {
-    disc = cross - a * a * qa;
-    if constexpr (NS > 1) disc -= ss * dd - sd * sd;
-  }
-  if (value(disc) < 0.0) return T(-1.0);
-  if (value(qb) > 0.0) return -qc / (qb + sqrt(disc));
-  if (value(qa) <= 0.0) return T(-1.0);
-  return value(disc) > 0.0 ? T((sqrt(disc) - qb) / qa) : T(-qb / qa);
-}
-
-/// First fraction in [0, 1] at which the elastic drive q0 + x dq reaches the yield surface, or a negative value. Scaled
-/// tractions in tension, plain ones in compression, so that w = 0 is no special case; the path has a kink where q_n =
-/// 0. The elastic domain is convex, so a straight piece that ends inside never left it.
-template <int Dim, class T, class P>
-[[nodiscard]] FPZ_INLINE T yield_entry(const CohesiveLaw<P>& law, const SeriesCompliance<P>& series, const T& w,
-                                       const Vec<T, Dim>& q0, const Vec<T, Dim>& dq) {
+/// First fraction in [0, 1] at which the elastic motion q0 + x dq reaches the yield surface, or a negative value.
+/// Scaled tractions in tension, plain ones in compression, so that w = 0 is no special case; the path has a kink where
+/// q_n = 0. The elastic domain is convex, so a straight piece that ends inside never left it.
+template <int Dim, class T, class Law>
+[[nodiscard]] FPZ_INLINE T yield_entry(const Zone<Law>& zone, const T& w, const Vec<T, Dim>& q0,
+                                       const Vec<T, Dim>& dq) {
   constexpr int NS = Dim - 1;
+  const auto& surface = zone.law.surface;
   bool tension = value(q0[0]) > 0.0 || (value(q0[0]) == 0.0 && value(dq[0]) >= 0.0);
   const double end_n = value(q0[0]) + value(dq[0]);
   const bool crosses = tension ? end_n < 0.0 : end_n > 0.0;
   const T kink = crosses ? T(-q0[0] / dq[0]) : T(1.0);
-  const T inverse_cs = 1.0 / (law.flexibility_s + w * series.shear);
+  const T inverse_cs = 1.0 / zone.shear_compliance(w);
   // At the kink tau_n = 0, whatever the scale: this test has no rounding that w could magnify.
   bool inside_at_kink = true;
   if (crosses) {
@@ -224,32 +189,27 @@ template <int Dim, class T, class P>
       const double tau = value(q0[k] + dq[k] * kink) * value(inverse_cs);
       shear2 += tau * tau;
     }
-    const double apex = value(law.apex);
-    const double cohesion = value(law.cohesion);
-    inside_at_kink = shear2 + apex * apex <= cohesion * cohesion;
+    inside_at_kink = surface.contains_shear(shear2);
   }
   for (int piece = 0; piece < (crosses ? 2 : 1); ++piece, tension = !tension) {
     const T from = piece == 0 ? T(0.0) : kink;
     const T to = piece == 0 ? kink : T(1.0);
     const T scale = tension ? T(1.0) : w;
-    const T inverse_cn = 1.0 / (law.flexibility_n + (tension ? w : T(1.0)) * series.normal);
-    const T c = scale * law.cohesion;
-    const T a = scale * law.apex;
+    const T inverse_cn = 1.0 / (zone.law.flexibility_n + (tension ? w : T(1.0)) * zone.series.normal);
     const T n = (q0[0] + dq[0] * from) * inverse_cn;
     const T dn = dq[0] * inverse_cn;
     const double length = value(to) - value(from);
-    const double l_end = value(c) - (value(n) + length * value(dn)) * value(law.tan_phi);
-    double outside = value(a) * value(a) - l_end * l_end;
     Vec<T, NS> s, ds;
+    Vec<double, NS> s_end;
     for (int k = 0; k < NS; ++k) {
       s[k] = scale * (q0[k + 1] + dq[k + 1] * from) * inverse_cs;
       ds[k] = scale * dq[k + 1] * inverse_cs;
-      const double s_end = value(s[k]) + length * value(ds[k]);
-      outside += s_end * s_end;
+      s_end[k] = value(s[k]) + length * value(ds[k]);
     }
     const bool ends_at_kink = crosses && piece == 0;
-    if (ends_at_kink ? inside_at_kink : (l_end > 0.0 && outside <= 0.0)) continue;
-    const T x = exit_fraction<NS>(law.tan_phi, c, a, n, s, dn, ds);
+    const double n_end = value(n) + length * value(dn);
+    if (ends_at_kink ? inside_at_kink : surface.template contains<NS>(value(scale), n_end, s_end)) continue;
+    const T x = surface.template exit_fraction<NS>(scale, n, s, dn, ds);
     if (value(x) >= 0.0 && value(x) <= length) return from + x;
     if (ends_at_kink) return to;  // it does leave; rounding put the exit beyond the kink
   }
