@@ -8,11 +8,15 @@
 
 #include "blocks.hpp"
 #include "equations.hpp"
+#include "fpz/io/markdown.hpp"
 
 namespace fpz::docs {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr int first_equation = 17;
+constexpr int last_equation = 69;
 
 std::string read(const fs::path& file) {
   std::ifstream in(file);
@@ -30,6 +34,15 @@ std::vector<fs::path> pages() {
   return found;
 }
 
+TEST(Documentation, ProseHasReadableLines) {
+  ASSERT_GT(pages().size(), 10U);
+  for (const fs::path& page : pages()) {
+    for (const io::LongLine& line : io::long_lines(read(page))) {
+      ADD_FAILURE() << page.string() << ":" << line.number << ": " << line.length << " characters";
+    }
+  }
+}
+
 TEST(Documentation, EveryTableOfTheCodeIsOnAPage) {
   std::vector<std::string> found;
   for (const fs::path& page : pages()) {
@@ -38,6 +51,27 @@ TEST(Documentation, EveryTableOfTheCodeIsOnAPage) {
   }
   for (const NamedTable& table : all_tables())
     EXPECT_EQ(std::count(found.begin(), found.end(), table.name), 1) << table.name;
+}
+
+TEST(Documentation, EveryEquationIsFoundInTheCode) {
+  const fs::path root = FPZ_SOURCE_DIR;
+  std::set<int> missing;
+  for (int k = first_equation; k <= last_equation; ++k) missing.insert(k);
+  for (const IndexRow& row : read_equation_index(read(root / "docs/equation-index.md"))) {
+    const std::string at = "docs/equation-index.md:" + std::to_string(row.line) + ": ";
+    EXPECT_FALSE(row.places.empty()) << at << "names no place in the code";
+    std::set<int> mentioned;
+    for (const CodePlace& place : row.places) {
+      const std::string text = read(root / place.file);
+      EXPECT_TRUE(has_word(text, place.name)) << at << place.file << " has no " << place.name;
+      mentioned.merge(mentioned_equations(text));
+    }
+    for (const int k : row.equations) {
+      EXPECT_TRUE(mentioned.contains(k)) << at << "none of the files mentions eq " << k;
+      missing.erase(k);
+    }
+  }
+  for (const int k : missing) ADD_FAILURE() << "docs/equation-index.md has no row for eq " << k;
 }
 
 std::string greeting() { return "| hello |\n"; }
@@ -70,7 +104,7 @@ TEST(EquationIndex, ReadsListsAndRanges) {
   EXPECT_EQ(leading_numbers("33 x"), (std::set<int>{33}));
   EXPECT_EQ(leading_numbers("17, 19-21 and 23"), (std::set<int>{17, 19, 20, 21, 23}));
   EXPECT_TRUE(leading_numbers("eq").empty());
-  EXPECT_EQ(mentioned_equations("(eq 44-46), eq 47; seq 50"), (std::set<int>{44, 45, 46, 47}));
+  EXPECT_EQ(mentioned_equations("(eq 44-46), eqs 47 and 48; seq 50"), (std::set<int>{44, 45, 46, 47, 48}));
 }
 
 TEST(EquationIndex, ReadsRows) {

@@ -63,9 +63,10 @@ std::set<int> leading_numbers(std::string_view text) {
 
 std::set<int> mentioned_equations(std::string_view text) {
   std::set<int> numbers;
-  constexpr std::string_view word = "eq ";
-  for (std::size_t at = text.find(word); at != std::string_view::npos; at = text.find(word, at + 1)) {
-    if (at == 0 || !is_name(text[at - 1])) numbers.merge(leading_numbers(text.substr(at + word.size())));
+  for (std::string_view word : {"eq ", "eqs ", "Eq "}) {
+    for (std::size_t at = text.find(word); at != std::string_view::npos; at = text.find(word, at + 1)) {
+      if (at == 0 || !is_name(text[at - 1])) numbers.merge(leading_numbers(text.substr(at + word.size())));
+    }
   }
   return numbers;
 }

@@ -24,7 +24,7 @@ struct IndexRow {
 /// The numbers of a list such as "33", "44-46" or "17, 19-21 and 23" at the begin of the text.
 [[nodiscard]] std::set<int> leading_numbers(std::string_view text);
 
-/// All numbers that follow an "eq " in the text.
+/// All numbers that follow an "eq " or "eqs " in the text.
 [[nodiscard]] std::set<int> mentioned_equations(std::string_view text);
 
 /// The rows whose first cell begins with a number.

@@ -1,8 +1,7 @@
 // Folders and files that tests write and that go away with them.
 #pragma once
 
-#include <stdlib.h>
-
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>

@@ -39,7 +39,8 @@ template <class T, class Law>
 }
 
 /// Stored energy per volume, J/m^3: elastic energy of the bulk plus that of the cohesive zone since onset over H. work
-/// = stored + dissipated along every path. See docs/equations.md for why the zone's part can be slightly negative.
+/// = stored + dissipated along every path (eq 37-38). See docs/equations.md for why the zone's part can be slightly
+/// negative.
 template <class T, int Dim, class P>
 [[nodiscard]] T stored_energy(const Material<P>& m, const State<T, Dim>& s) {
   const T bulk = 0.5 * double_dot<Dim>(s.stress, bulk_strain(m, s));

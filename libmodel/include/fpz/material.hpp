@@ -9,8 +9,8 @@
 
 namespace fpz {
 
-/// Linear elastic bulk, sigma = lambda tr(eps) I + 2 mu eps on the stored components. For plane stress `lambda` is the
-/// condensed 2 lambda mu / (lambda + 2 mu), so that the in-plane law keeps this form.
+/// Linear elastic bulk (eq 36), sigma = lambda tr(eps) I + 2 mu eps on the stored components. For plane stress `lambda`
+/// is the condensed 2 lambda mu / (lambda + 2 mu), so that the in-plane law keeps this form.
 template <class P>
 struct Elasticity {
   P lambda{};

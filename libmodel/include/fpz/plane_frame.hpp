@@ -43,7 +43,7 @@ template <class T, int Dim>
   return local;
 }
 
-/// Components of sym(n (x) U).
+/// Components of sym(n (x) U): the strain, times a length, of a jump U on a plane (eq 33-34).
 template <class T, int Dim>
 [[nodiscard]] FPZ_INLINE Tensor<T, Dim> symmetric_product(const Vec<T, Dim>& n, const Vec<T, Dim>& jump) {
   Tensor<T, Dim> e;

@@ -48,7 +48,7 @@ template <class T, int Dim, class Law>
   return d;
 }
 
-/// Algorithm 1 on a jump increment `du`: traction, plastic jump, slip and integrity are updated in place.
+/// Algorithm 1 (eq 51-54) on a jump increment `du`: traction, plastic jump, slip and integrity are updated in place.
 template <class T, int Dim, class Law>
 void paper_return(const Law& law, CohesiveState<T, Dim>& z, const Vec<T, Dim>& du) {
   using std::sqrt;
@@ -92,7 +92,8 @@ template <class T, int Dim, class Law>
   return f <= band && (w == value(begin.integrity) || f >= -band);
 }
 
-/// Diagonal-plus-rank-one tangent K^t of eq 67 at the current state, or the secant stiffness inside the yield surface.
+/// Diagonal-plus-rank-one tangent K^t of eq 35 and 67 at the current state, or the secant stiffness inside the yield
+/// surface.
 template <class T, int Dim, class Law>
 [[nodiscard]] Mat<T, Dim, Dim> paper_tangent(const Law& law, const CohesiveState<T, Dim>& z) {
   const PaperDerivatives<T, Dim> d = paper_derivatives(law, z.traction, z.integrity);
@@ -168,7 +169,7 @@ template <class T, int Dim, class Law>
       for (int k = 0; k < Dim; ++k) c(k, k) = d.secant[k];
     }
     for (int k = 0; k < Dim; ++k) c(k, k) += stiffness[k];
-    paper_return(law, z, Vec<T, Dim>(c.inverse() * r));  // lines 30-34, eq 61
+    paper_return(law, z, Vec<T, Dim>(c.inverse() * r));  // lines 30-34, eq 59-61
   }
   if (!paper_result_is_sound(law, begin, z)) {
     report.status = Status::non_convergence;
