@@ -94,7 +94,7 @@ io::Series load_curve(const Run& run, const std::string& title, const std::strin
 }
 
 CrackMap crack_map(const Run& run, const specimen::Frame& frame, const std::string& title) {
-  return {title, run.cloud(frame), run.scene_file()};
+  return {title, run.cloud(frame), run.parsed_scene()};
 }
 
 io::Picture crack_picture(const std::string& name, const std::vector<CrackMap>& maps, int columns) {

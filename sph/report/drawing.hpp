@@ -22,7 +22,7 @@ inline constexpr const char* reference_style = "lines lw 2 dt 2 lc rgb '#202020'
 struct CrackMap {
   std::string title;
   specimen::PointCloud cloud;
-  specimen::SceneFile scene;
+  specimen::Scene scene;
 };
 [[nodiscard]] CrackMap crack_map(const Run& run, const specimen::Frame& frame, const std::string& title);
 

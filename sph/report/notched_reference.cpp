@@ -29,7 +29,7 @@ constexpr const char* acting[] = {"young_modulus", "poisson_ratio", "tensile_str
 
 /// What the curve of a run must hold for. Supports are the second and the third boundary of its scene.
 std::vector<Condition> conditions_of(const Run& run, double roller_width) {
-  const specimen::SceneFile scene = run.scene_file();
+  const specimen::Scene scene = run.parsed_scene();
   std::vector<Condition> list;
   const auto add = [&](const char* name, double value) { list.push_back({name, io::exact(value)}); };
   const auto* box = std::get_if<specimen::Rectangle>(&scene.body.shape);

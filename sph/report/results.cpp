@@ -87,8 +87,8 @@ std::size_t Run::warnings() const {
 }
 
 io::Table Run::history() const { return io::read_csv(specimen::RunFiles(folder).history); }
-specimen::SceneFile Run::scene_file() const { return specimen::read_scene(specimen::RunFiles(folder).scene); }
-std::vector<specimen::Frame> Run::frames() const { return specimen::read_pvd(folder / "frames.pvd"); }
+specimen::Scene Run::parsed_scene() const { return specimen::read_scene(specimen::RunFiles(folder).scene); }
+std::vector<specimen::Frame> Run::frames() const { return specimen::read_pvd(specimen::RunFiles(folder).collection); }
 specimen::PointCloud Run::cloud(const specimen::Frame& frame) const { return specimen::read_vtk(folder / frame.file); }
 
 const Run* SweepRuns::find(std::string_view series, std::string_view label) const {

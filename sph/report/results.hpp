@@ -8,7 +8,7 @@
 
 #include "fpz/io/csv.hpp"
 #include "fpz/io/json_locator.hpp"
-#include "fpz/specimen/scene_file.hpp"
+#include "fpz/specimen/scene.hpp"
 #include "fpz/specimen/vtu.hpp"
 
 namespace fpz::report {
@@ -31,7 +31,7 @@ struct Run {
   [[nodiscard]] std::size_t warnings() const;
 
   [[nodiscard]] io::Table history() const;
-  [[nodiscard]] specimen::SceneFile scene_file() const;
+  [[nodiscard]] specimen::Scene parsed_scene() const;
   [[nodiscard]] std::vector<specimen::Frame> frames() const;
   [[nodiscard]] specimen::PointCloud cloud(const specimen::Frame& frame) const;
 };

@@ -47,7 +47,7 @@ struct Crack {
 Crack crack_of(const Run& run) {
   Crack c;
   const io::Table t = io::read_csv(specimen::RunFiles(run.folder).crack);
-  const specimen::Notch notch = run.scene_file().body.notches.front();
+  const specimen::Notch notch = run.parsed_scene().body.notches.front();
   const specimen::Point load(run.setting("boundaries/0/at/0"), run.setting("boundaries/0/at/1"));
   c.way = (load - notch.tip).norm();
   for (std::size_t k = 0; k < t.rows(); ++k) {

@@ -16,7 +16,7 @@ double seconds(std::chrono::steady_clock::time_point since) {
 }
 
 /// Steps until the fastest boundary has moved as far as the deflection at which the run stops.
-long long steps_to_deflection(const SceneFile& scene, double time_step) {
+long long steps_to_deflection(const Scene& scene, double time_step) {
   double time = scene.stop.time;
   double speed = 0.0, ramp = 0.0;
   for (const Boundary& b : scene.boundaries) {
@@ -30,7 +30,7 @@ long long steps_to_deflection(const SceneFile& scene, double time_step) {
 
 }  // namespace
 
-Estimate estimate(const SceneFile& scene, const Specimen& specimen, int threads) {
+Estimate estimate(const Scene& scene, const Specimen& specimen, int threads) {
   Specimen own = specimen;
   if (threads > 0) own.setup.options.threads = threads;
   sph::Simulation<2> run(own.setup);
@@ -58,7 +58,7 @@ Estimate estimate(const SceneFile& scene, const Specimen& specimen, int threads)
   return e;
 }
 
-std::string estimate_text(const SceneFile& scene, const Specimen& specimen, const Estimate& e) {
+std::string estimate_text(const Scene& scene, const Specimen& specimen, const Estimate& e) {
   const double count = static_cast<double>(specimen.setup.arrangement.size());
   std::ostringstream s;
   s.precision(3);

@@ -69,7 +69,7 @@ void report_pictures(const PictureOutcome& pictures, const fs::path& folder) {
 }
 
 int run(const Arguments& a) {
-  const SceneFile scene = read_scene(a.scene, a.set);
+  const Scene scene = read_scene(a.scene, a.set);
   io::print_warnings(scene.warnings);
   RunRequest request;
   request.folder = a.out;
@@ -86,7 +86,7 @@ int run(const Arguments& a) {
     request.progress = [&](const Progress& p) { line.show(p); };
     result = run_scene(scene, request);
   }
-  const History& h = result.record.history;
+  const History& h = result.history;
   if (result.ending == Ending::interrupted) {
     std::cout << scene.name << ": " << result.reason << "\n  " << RunFiles(a.out).checkpoint.string() << "\n";
     return 3;
@@ -94,13 +94,13 @@ int run(const Arguments& a) {
   io::print_warnings(result.warnings);
   std::cout << scene.name << ": " << (result.ending == Ending::failed ? "FAILED: " : "") << result.reason << "\n"
             << result.report << "  " << RunFiles(a.out).history.string() << " (" << h.rows() << " rows), "
-            << result.record.frames.size() << " frames in " << (fs::path(a.out) / "frames.pvd").string() << "\n";
+            << result.frames.size() << " frames in " << RunFiles(a.out).collection.string() << "\n";
   if (a.pictures && scene.output.pictures) report_pictures(draw_run(a.out, true), a.out);
   return result.ending == Ending::failed ? 1 : 0;
 }
 
 int check(const Arguments& a) {
-  const SceneFile scene = read_scene(a.scene, a.set);
+  const Scene scene = read_scene(a.scene, a.set);
   io::print_warnings(scene.warnings);
   const Specimen specimen = make_specimen(scene);
   std::cout << scene.name << ": the scene is valid\n"

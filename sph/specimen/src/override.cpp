@@ -1,7 +1,7 @@
 // Changes of single entries of a JSON tree, and the tree as text.
 #include <nlohmann/json.hpp>
 
-#include "fpz/specimen/scene_file.hpp"
+#include "fpz/specimen/scene.hpp"
 
 namespace fpz::specimen {
 namespace {

@@ -148,8 +148,8 @@ PictureOutcome draw_run(const fs::path& folder, bool force) {
   PictureOutcome outcome;
   const RunFiles files(folder);
   const io::Table t = io::read_csv(files.history);
-  const SceneFile scene = read_scene(files.scene);
-  const std::vector<Frame> frames = read_pvd(folder / "frames.pvd");
+  const Scene scene = read_scene(files.scene);
+  const std::vector<Frame> frames = read_pvd(files.collection);
   if (gnuplot_missing(outcome)) return outcome;
   std::vector<Picture> pictures = {load_deflection(t, io::gnuplot_plain(scene.name)),
                                    energies(t, io::gnuplot_plain(scene.name))};
@@ -163,7 +163,7 @@ PictureOutcome draw_run(const fs::path& folder, bool force) {
   return outcome;
 }
 
-PictureOutcome draw_scene(const SceneFile& scene, const Specimen& specimen, const fs::path& folder, bool force) {
+PictureOutcome draw_scene(const Scene& scene, const Specimen& specimen, const fs::path& folder, bool force) {
   PictureOutcome outcome;
   if (gnuplot_missing(outcome)) return outcome;
   const char* colours[] = {"#C0392B", "#1F5FA8", "#2E8B57", "#D68910", "#8E44AD", "#16A0A0"};
@@ -177,8 +177,7 @@ PictureOutcome draw_scene(const SceneFile& scene, const Specimen& specimen, cons
   for (const auto& points : outlines(scene.body)) map.lines.push_back(outline(points, "lines lw 1.5 lc rgb '#202020'"));
   std::vector<Point> gauges;
   for (const auto& [name, g] : specimen.gauges) {
-    for (const std::size_t id : g.of) gauges.push_back(a.position[id]);
-    for (const auto& ids : g.relative_to) {
+    for (const auto& ids : g.sites) {
       for (const std::size_t id : ids) gauges.push_back(a.position[id]);
     }
   }

@@ -167,7 +167,7 @@ void place_platen(sph::Arrangement<2>& a, const Shape& shape, const Platen& plat
     outermost = std::max(outermost, height);
   }
   for (Point& foot : feet) {
-    if (!platen.follow_surface) foot += (outermost - (foot - platen.at).dot(d)) * d;
+    if (platen.fit == Platen::Fit::flat) foot += (outermost - (foot - platen.at).dot(d)) * d;
     for (int layer = 0; layer < platen.layers; ++layer) {
       a.add(foot + (layer + 0.5) * a.spacing * d, pitch * a.spacing, group);
     }

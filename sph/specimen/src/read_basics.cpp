@@ -25,11 +25,12 @@ std::optional<NamedTree> load_tree(const InputReader& r, const Place& place, con
   return tree;
 }
 
-std::optional<std::size_t> choice(const InputReader& r, const Place& place, std::span<const std::string_view> valid) {
+std::optional<std::string_view> word(const InputReader& r, const Place& place,
+                                     std::span<const std::string_view> valid) {
   const auto name = r.text(place, longest_name);
   if (!name) return std::nullopt;
   const auto at = std::find(valid.begin(), valid.end(), *name);
-  if (at != valid.end()) return static_cast<std::size_t>(at - valid.begin());
+  if (at != valid.end()) return *at;
   r.problem(place, "unknown choice " + io::in_quotes(*name) + io::suggestion(*name, valid));
   return std::nullopt;
 }

@@ -62,7 +62,7 @@ std::optional<IntensityFactors> factors_of(const InputReader& r, const Place& pl
 }
 
 /// Half the distance of the two rollers below the specimen, m.
-std::optional<double> half_span(const SceneFile& scene) {
+std::optional<double> half_span(const Scene& scene) {
   std::vector<double> x;
   for (const Boundary& b : scene.boundaries) {
     if (b.platen && b.platen->direction.normalized()[1] < -0.99) x.push_back(b.platen->at[0]);
@@ -77,9 +77,8 @@ void require_same(const InputReader& r, const Place& p, const char* what, double
             std::string(what) + " of the scene is " + io::exact(scene) + ", the factors hold for " + io::exact(table));
 }
 
-std::optional<SemicircularBending> semicircular_bending(const InputReader& r, const Place& place,
-                                                        const SceneFile& scene, const Notch& notch,
-                                                        const IntensityFactors& f) {
+std::optional<SemicircularBending> semicircular_bending(const InputReader& r, const Place& place, const Scene& scene,
+                                                        const Notch& notch, const IntensityFactors& f) {
   const std::size_t before = r.problems().size();
   const auto* half = std::get_if<HalfDisc>(&scene.body.shape);
   if (half == nullptr) {
@@ -111,14 +110,14 @@ std::optional<SemicircularBending> semicircular_bending(const InputReader& r, co
 
 }  // namespace
 
-void read_toughness(const InputReader& r, JsonValue& root, SceneFile& scene) {
+void read_toughness(const InputReader& r, JsonValue& root, Scene& scene) {
   const Place top(root);
   JsonValue* given = member(root, "toughness");
   if (given == nullptr) return;
   const Place place(top, *given);
   if (!r.object(place, "\"type\", \"notch\" and \"factors\"")) return;
   r.known_keys(place, toughness_keys);
-  with_required(r, place, "type", [&](const Place& p) { (void)choice(r, p, types); });
+  with_required(r, place, "type", [&](const Place& p) { (void)word(r, p, types); });
   const Notch* notch = nullptr;
   with_required(r, place, "notch", [&](const Place& p) { notch = notch_at(r, p, scene); });
   std::optional<IntensityFactors> factors;

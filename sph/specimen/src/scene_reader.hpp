@@ -5,7 +5,8 @@
 #include <span>
 
 #include "fpz/io/input_reader.hpp"
-#include "fpz/specimen/scene_file.hpp"
+#include "fpz/specimen/scene.hpp"
+#include "fpz/words.hpp"
 
 namespace fpz::specimen::detail {
 
@@ -39,9 +40,38 @@ struct NamedTree {
 /// `what` is what it should be ("material file"); a file that cannot be read is a problem.
 [[nodiscard]] std::optional<NamedTree> load_tree(const InputReader& r, const Place& place, const char* what);
 
-/// Index of a string among the valid names.
-[[nodiscard]] std::optional<std::size_t> choice(const InputReader& r, const Place& place,
-                                                std::span<const std::string_view> valid);
+/// A string that must be one of the valid words.
+[[nodiscard]] std::optional<std::string_view> word(const InputReader& r, const Place& place,
+                                                   std::span<const std::string_view> valid);
+
+/// The value of an enumeration by its word, one of `valid`.
+template <Worded E>
+[[nodiscard]] std::optional<E> choice(const InputReader& r, const Place& place, std::initializer_list<E> valid) {
+  std::vector<std::string_view> words;
+  for (const E value : valid) words.emplace_back(fpz::to_string(value));
+  const auto text = word(r, place, words);
+  return text ? from_word<E>(*text) : std::nullopt;
+}
+
+/// The same with all values of the enumeration.
+template <Worded E>
+[[nodiscard]] std::optional<E> choice(const InputReader& r, const Place& place) {
+  std::vector<std::string_view> words;
+  for (const Word<E>& w : Words<E>::list) words.emplace_back(w.text);
+  const auto text = word(r, place, words);
+  return text ? from_word<E>(*text) : std::nullopt;
+}
+
+/// An entry of a table of kinds, by its word: whatever has a member `word`.
+template <class Kind, std::size_t N>
+[[nodiscard]] const Kind* kind(const InputReader& r, const Place& place, const std::array<Kind, N>& kinds) {
+  std::vector<std::string_view> words;
+  for (const Kind& k : kinds) words.push_back(k.word);
+  const auto text = word(r, place, words);
+  const auto at = std::find_if(kinds.begin(), kinds.end(), [&](const Kind& k) { return text && k.word == *text; });
+  return at == kinds.end() ? nullptr : &*at;
+}
+
 [[nodiscard]] std::optional<bool> boolean(const InputReader& r, const Place& place);
 [[nodiscard]] std::optional<Point> point(const InputReader& r, const Place& place);
 /// A point that is not (0, 0), made a unit vector.
@@ -49,15 +79,16 @@ struct NamedTree {
 [[nodiscard]] std::optional<double> not_negative(const InputReader& r, const Place& place);
 
 /// The notch that `place` names by its index.
-[[nodiscard]] const Notch* notch_at(const InputReader& r, const Place& place, const SceneFile& scene);
+[[nodiscard]] const Notch* notch_at(const InputReader& r, const Place& place, const Scene& scene);
 
-void read_body(const InputReader& r, const Place& root, SceneFile& scene);
-void read_arrangement(const InputReader& r, const Place& root, SceneFile& scene);
-void read_boundaries(const InputReader& r, const Place& place, SceneFile& scene);
+[[nodiscard]] std::optional<Shape> read_shape(const InputReader& r, const Place& place);
+void read_body(const InputReader& r, const Place& root, Scene& scene);
+void read_arrangement(const InputReader& r, const Place& root, Scene& scene);
+void read_boundaries(const InputReader& r, const Place& place, Scene& scene);
 void read_method(const InputReader& r, const Place& place, sph::Options<2>& options);
-void read_gauges(const InputReader& r, const Place& place, SceneFile& scene);
+void read_gauges(const InputReader& r, const Place& place, Scene& scene);
 /// After the body and the boundaries. The content of a file with factors takes the place of its name in `root`.
-void read_toughness(const InputReader& r, JsonValue& root, SceneFile& scene);
+void read_toughness(const InputReader& r, JsonValue& root, Scene& scene);
 void read_stop(const InputReader& r, const Place& place, StopRules& stop);
 void read_output(const InputReader& r, const Place& place, OutputRules& output);
 

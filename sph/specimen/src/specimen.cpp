@@ -7,15 +7,16 @@
 
 #include "fpz/energy.hpp"
 #include "fpz/io/input_error.hpp"
+#include "gauge_kinds.hpp"
 
 namespace fpz::specimen {
 namespace {
 
 using io::InputError;
 
-[[noreturn]] void fail(const SceneFile& scene, const std::string& what) { throw InputError(scene.name + ": " + what); }
+[[noreturn]] void fail(const Scene& scene, const std::string& what) { throw InputError(scene.name + ": " + what); }
 
-sph::Arrangement<2> place(const SceneFile& scene) {
+sph::Arrangement<2> place(const Scene& scene) {
   sph::Arrangement<2> a = scene.particles ? read_particles(scene.particles->file, scene.spacing)
                                           : place_specimen(scene.body, scene.pattern, scene.spacing);
   for (std::size_t b = 0; b < scene.boundaries.size(); ++b) {
@@ -35,78 +36,6 @@ sph::Arrangement<2> place(const SceneFile& scene) {
     }
   }
   return a;
-}
-
-std::vector<std::size_t> particles_of(const Site& site, const SceneFile& scene, const sph::Arrangement<2>& a,
-                                      const std::string& gauge) {
-  std::vector<std::size_t> found;
-  if (!site.group.empty()) {
-    for (std::size_t b = 0; b < scene.boundaries.size(); ++b) {
-      if (scene.boundaries[b].name != site.group) continue;
-      for (std::size_t i = 0; i < a.size(); ++i) {
-        if (a.group[i] == static_cast<int>(b)) found.push_back(i);
-      }
-    }
-    return found;
-  }
-  double nearest = 1e300;
-  std::size_t closest = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    if (a.group[i] != sph::Arrangement<2>::specimen) continue;
-    const Point& x = a.position[i];
-    if (site.box) {
-      if (((x - site.box->low).array() >= 0.0).all() && ((site.box->high - x).array() >= 0.0).all()) found.push_back(i);
-      continue;
-    }
-    const double d = (x - site.centre).norm();
-    if (d <= site.radius) found.push_back(i);
-    if (d < nearest) nearest = d, closest = i;
-  }
-  if (found.empty() && site.box) fail(scene, "gauge \"" + gauge + "\": no particle in its box");
-  // Particles equally near all count: which one is first would be an accident.
-  if (found.empty()) {
-    for (std::size_t i = 0; i < a.size(); ++i) {
-      if (a.group[i] == sph::Arrangement<2>::specimen &&
-          (a.position[i] - site.centre).norm() <= nearest + 1e-6 * a.spacing) {
-        found.push_back(i);
-      }
-    }
-    if (found.empty()) found.push_back(closest);
-  }
-  return found;
-}
-
-BoundGauge bind(const Gauge& gauge, const SceneFile& scene, const sph::Arrangement<2>& a, const std::string& name) {
-  BoundGauge b;
-  if (const auto* force = std::get_if<ForceGauge>(&gauge)) {
-    b.direction = force->direction;
-    for (const std::string& wanted : force->groups) {
-      for (std::size_t k = 0; k < scene.boundaries.size(); ++k) {
-        if (scene.boundaries[k].name == wanted) b.groups.push_back(k);
-      }
-    }
-  } else if (const auto* displacement = std::get_if<DisplacementGauge>(&gauge)) {
-    b.kind = BoundGauge::Kind::displacement;
-    b.direction = displacement->direction;
-    b.of = particles_of(displacement->of, scene, a, name);
-    for (const Site& s : displacement->relative_to) b.relative_to.push_back(particles_of(s, scene, a, name));
-  } else {
-    const auto& stress = std::get<StressGauge>(gauge);
-    b.kind = BoundGauge::Kind::stress;
-    b.component = stress.component;
-    b.of = particles_of(stress.of, scene, a, name);
-  }
-  return b;
-}
-
-Point mean_displacement(const sph::Simulation<2>& run, const std::vector<std::size_t>& ids) {
-  const sph::Particles<2>& p = run.particles();
-  Point sum = Point::Zero();
-  for (const std::size_t id : ids) {
-    const std::size_t i = run.slot(id);
-    sum += Point(p.position[0][i] - p.start[0][i], p.position[1][i] - p.start[1][i]);
-  }
-  return sum / static_cast<double>(ids.size());
 }
 
 /// Rotation that takes the frame of a particle's stored tensors to space.
@@ -133,7 +62,7 @@ bool is_updated(const Specimen& s) { return s.setup.options.configuration == sph
 
 }  // namespace
 
-Specimen make_specimen(const SceneFile& scene) {
+Specimen make_specimen(const Scene& scene) {
   Specimen s;
   try {
     s.setup.arrangement = place(scene);
@@ -162,24 +91,11 @@ Specimen make_specimen(const SceneFile& scene) {
     for (const std::string& w : wrong) text += (text.empty() ? "" : "\n") + scene.name + ": " + w;
     throw InputError(text);
   }
-  for (const auto& [name, gauge] : scene.gauges) s.gauges.emplace(name, bind(gauge, scene, a, name));
+  for (const auto& [name, gauge] : scene.gauges) {
+    const detail::GaugeBinding to{scene, a, name};
+    s.gauges.emplace(name, std::visit([&](const auto& kind) { return detail::bind(kind, to); }, gauge));
+  }
   return s;
-}
-
-double measure(const BoundGauge& g, const sph::Simulation<2>& run, double thickness) {
-  if (g.kind == BoundGauge::Kind::force) {
-    Point sum = Point::Zero();
-    for (const std::size_t k : g.groups) sum += run.reaction(k);
-    return thickness * sum.dot(g.direction);
-  }
-  if (g.kind == BoundGauge::Kind::displacement) {
-    Point u = mean_displacement(run, g.of);
-    for (const auto& ids : g.relative_to) u -= mean_displacement(run, ids) / static_cast<double>(g.relative_to.size());
-    return u.dot(g.direction);
-  }
-  double sum = 0.0;
-  for (const std::size_t id : g.of) sum += run.particles().stress[static_cast<std::size_t>(g.component)][run.slot(id)];
-  return sum / static_cast<double>(g.of.size());
 }
 
 std::vector<Spot> spots(const sph::Simulation<2>& run, const Specimen& specimen) {

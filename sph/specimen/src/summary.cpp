@@ -6,6 +6,9 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "fpz/parameters.hpp"
+#include "fpz/sph/option_table.hpp"
+
 namespace fpz::specimen {
 namespace {
 
@@ -42,30 +45,45 @@ std::string percent(double x) {
 
 Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
 
-const char* name_of(Ending e) {
-  return e == Ending::finished ? "finished" : e == Ending::interrupted ? "interrupted" : "failed";
+/// One option of any type as JSON.
+Json option_json(double x) { return x; }
+template <Worded E>
+Json option_json(E value) {
+  return fpz::to_string(value);
+}
+Json option_json(const sph::RveLength& length) {
+  return length.rule == sph::RveLength::Rule::number ? Json(length.value) : Json(fpz::to_string(length.rule));
 }
 
-Json method_json(const sph::Options<2>& o) {
-  const char* lengths[] = {"spacing", "band", "number"};
-  return {{"configuration", o.configuration == sph::Configuration::reference ? "reference" : "updated"},
-          {"momentum", o.momentum == sph::MomentumForm::adjoint ? "adjoint" : "paper"},
-          {"kernel", o.kernel == sph::Kernel::cubic_spline ? "cubic_spline" : "wendland_c2"},
-          {"smoothing_ratio", o.smoothing_ratio},
-          {"courant", o.courant},
-          {"rve_length", o.rve_length.rule == sph::RveLength::Rule::number
-                             ? Json(o.rve_length.value)
-                             : Json(lengths[static_cast<std::size_t>(o.rve_length.rule)])},
-          {"integrator", to_string(o.method)},
-          {"zero_energy_control", o.zero_energy_control},
-          {"damping", o.damping},
-          {"mass_scale", o.mass_scale},
-          {"release_integrity", o.release_integrity}};
+Json method_json(const sph::Options<2>& options) {
+  Json j;
+  sph::for_each_option(options, [&](const sph::OptionInfo& info, const auto& value) {
+    if constexpr (requires { option_json(value); }) {
+      if (info.in_summary) j[std::string(info.name)] = option_json(value);
+    }
+  });
+  return j;
+}
+
+Json material_json(const Scene& scene) {
+  Json j = {{"name", scene.material_name}};
+  for (const auto& p : parameter_table<double>) {
+    if (p.of_material) j[std::string(p.name)] = scene.parameters.*p.member;
+  }
+  return j;
+}
+
+Json energies_json(const History& h) {
+  Json j;
+  if (h.rows() == 0) return j;
+  sph::for_each_energy(
+      {}, [&](std::string_view name, double) { j[std::string(name)] = number(h.last("energy_" + std::string(name))); });
+  return j;
 }
 
 }  // namespace
 
-Findings findings(const SceneFile& scene, const History& h, double opened) {
+Findings findings(const Scene& scene, const History& h, double opened) {
   Findings f;
   f.fracture_energy = scene.parameters.tensile_strength * scene.parameters.delta0;
   f.crack_area = opened * scene.thickness;
@@ -94,7 +112,7 @@ Findings findings(const SceneFile& scene, const History& h, double opened) {
   return f;
 }
 
-std::vector<std::string> warnings_of(const SceneFile& scene, const History& h, const Findings& f) {
+std::vector<std::string> warnings_of(const Scene& scene, const History& h, const Findings& f) {
   std::vector<std::string> list;
   if (h.rows() > 1 && peak_row(h) + 1 == h.rows()) {
     list.push_back("the load was still rising at the end: the peak load is not reached");
@@ -143,14 +161,14 @@ std::string report_of(const Findings& f) {
 }
 
 std::string summary_text(const SummaryInput& in) {
-  const History& h = in.result.record.history;
+  const History& h = in.result.history;
   const Findings& f = in.findings;
   const sph::Particles<2>& p = in.run.particles();
   Json j;
   j["scene"] = in.scene.name;
   j["version"] = FPZ_VERSION;
   j["compiler"] = __VERSION__;
-  j["status"] = name_of(in.result.ending);
+  j["status"] = fpz::to_string(in.result.ending);
   j["reason"] = in.result.reason;
   j["warnings"] = in.result.warnings;
   j["units"] = "SI; forces and energies for the whole thickness";
@@ -170,29 +188,12 @@ std::string summary_text(const SummaryInput& in) {
   }
   j["cracks"] = cracks;
   j["pieces_area"] = in.pieces;
-  Json energies;
-  if (h.rows() > 0) {
-    for (const char* name :
-         {"external", "elastic", "kinetic", "fracture", "viscous", "damping", "artificial", "error"}) {
-      energies[name] = number(h.last(std::string("energy_") + name));
-    }
-  }
-  j["energies"] = energies;
+  j["energies"] = energies_json(h);
   j["energy_balance_error"] = number(f.balance_error);
   j["kinetic_over_internal"] = {{"before_peak", number(f.kinetic_ratio)},
                                 {"after_peak", number(f.kinetic_ratio_after)}};
   j["load_support_imbalance"] = number(f.imbalance);
-  j["material"] = {{"name", in.scene.material_name},
-                   {"young_modulus", in.scene.parameters.young_modulus},
-                   {"poisson_ratio", in.scene.parameters.poisson_ratio},
-                   {"density", in.scene.parameters.density},
-                   {"tensile_strength", in.scene.parameters.tensile_strength},
-                   {"cohesion", in.scene.parameters.cohesion},
-                   {"friction_angle_deg", in.scene.parameters.friction_angle_deg},
-                   {"dilation_angle_deg", in.scene.parameters.dilation_angle_deg},
-                   {"delta0", in.scene.parameters.delta0},
-                   {"normal_stiffness", in.scene.parameters.normal_stiffness},
-                   {"shear_stiffness", in.scene.parameters.shear_stiffness}};
+  j["material"] = material_json(in.scene);
   j["setting"] = to_string(in.scene.setting);
   j["method"] = method_json(in.scene.options);
   j["spacing"] = in.scene.spacing;
@@ -207,12 +208,12 @@ std::string summary_text(const SummaryInput& in) {
   j["time_step"] = in.run.time_step();
   j["steps"] = in.run.steps();
   j["rows"] = h.rows();
-  j["frames"] = in.result.record.frames.size();
-  j["wall_seconds"] = in.result.record.wall_seconds;
-  j["stepping_seconds"] = in.result.record.stepping_seconds;
+  j["frames"] = in.result.frames.size();
+  j["wall_seconds"] = in.result.seconds.all;
+  j["stepping_seconds"] = in.result.seconds.stepping;
   j["particle_steps_per_second"] =
-      in.result.record.stepping_seconds > 0.0
-          ? Json(static_cast<double>(p.count) * static_cast<double>(in.run.steps()) / in.result.record.stepping_seconds)
+      in.result.seconds.stepping > 0.0
+          ? Json(static_cast<double>(p.count) * static_cast<double>(in.run.steps()) / in.result.seconds.stepping)
           : Json(nullptr);
   return j.dump(2) + "\n";
 }

@@ -103,7 +103,7 @@ std::string word_at(const io::JsonValue& root, const char* name) {
 /// What an earlier sweep has left of a run.
 enum class Found : unsigned char { nothing, part, finished, failed, other };
 
-Found look(const fs::path& folder, const SceneFile& scene, std::string& reason) {
+Found look(const fs::path& folder, const Scene& scene, std::string& reason) {
   const RunFiles files(folder);
   std::string text, error;
   if (!io::load_text(files.scene, io::FileKind::regular, io::ReadLimits(), text, error)) return Found::nothing;
@@ -148,7 +148,7 @@ volatile std::sig_atomic_t told_to_stop = 0;
 extern "C" void on_stop(int) { told_to_stop = 1; }
 
 /// The order of the exit statuses is that of fpz-sph: 0 finished, 1 failed, 2 files, 3 interrupted.
-int run_one(const SceneFile& scene, RunRequest request, bool pictures, Slot& slot) {
+int run_one(const Scene& scene, RunRequest request, bool pictures, Slot& slot) {
   const auto say = [&](const std::string& text) { std::snprintf(slot.reason, sizeof slot.reason, "%s", text.c_str()); };
   try {
     request.threads = 1;
@@ -187,7 +187,7 @@ class HoldSignals {
   sigset_t previous_{};
 };
 
-[[noreturn]] void be_a_run(pid_t parent, HoldSignals& held, const SceneFile& scene, const RunRequest& request,
+[[noreturn]] void be_a_run(pid_t parent, HoldSignals& held, const Scene& scene, const RunRequest& request,
                            bool pictures, Slot& slot) {
   std::signal(SIGINT, on_stop);
   std::signal(SIGTERM, on_stop);
@@ -331,7 +331,7 @@ class Sweeper {
       const SweepRun& run = sweep_.runs[k];
       const auto number = [](double x) { return std::isnan(x) ? std::string("nan") : io::exact(x); };
       const SweepRow& row = result_.rows[k];
-      text += sweep_.series[run.series] + "," + number(run.value) + "," + run.label + "," + to_string(row.status);
+      text += sweep_.series[run.series] + "," + number(run.value) + "," + run.label + "," + fpz::to_string(row.status);
       for (std::size_t c = 1; c < row.figures.size(); ++c) text.append(",").append(number(row.figures[c]));
       text.append(",").append(run.folder.string()).append("\n");
     }
@@ -358,22 +358,6 @@ const std::vector<std::string>& figure_names() {
     return list;
   }();
   return names;
-}
-
-const char* to_string(RunStatus status) {
-  switch (status) {
-    case RunStatus::waiting:
-      return "waiting";
-    case RunStatus::running:
-      return "running";
-    case RunStatus::finished:
-      return "finished";
-    case RunStatus::failed:
-      return "failed";
-    case RunStatus::interrupted:
-      break;
-  }
-  return "interrupted";
 }
 
 std::size_t SweepResult::count(RunStatus status) const {

@@ -121,8 +121,7 @@ std::vector<Change> read_series(const InputReader& r, const Place& top) {
 
 std::string read_column(const InputReader& r, const Place& place) {
   const std::vector<std::string_view> names(figure_names().begin(), figure_names().end());
-  const auto k = choice(r, place, names);
-  return k ? figure_names()[*k] : "value";
+  return std::string(word(r, place, names).value_or("value"));
 }
 
 SweepReference read_reference(const InputReader& r, const Place& place) {
@@ -160,14 +159,14 @@ SweepPicture read_picture(const InputReader& r, const Place& place) {
     r.problem(place, "needs one of \"y\", \"curves\" and \"maps\"");
     return picture;
   }
-  const auto word = [&](std::string_view key, SweepPicture::Kind kind) {
+  const auto flag = [&](std::string_view key, SweepPicture::Kind kind) {
     with(place, key, [&](const Place& p) {
       picture.kind = kind;
       if (boolean(r, p) == false) r.problem(p, "must be true, or left out");
     });
   };
-  word("curves", SweepPicture::Kind::curves);
-  word("maps", SweepPicture::Kind::maps);
+  flag("curves", SweepPicture::Kind::curves);
+  flag("maps", SweepPicture::Kind::maps);
   with(place, "y", [&](const Place& p) { picture.y = read_column(r, p); });
   with(place, "x", [&](const Place& p) {
     if (!has("y")) r.problem(p, "belongs to a picture with \"y\"");

@@ -36,10 +36,9 @@ TEST(BandEnergy, CrackLengthIsMeasuredRightForNarrowBands) {
 /// Dissipated energy over crack area times G of the notched beam at the end of its test, spacing 4 mm, with the lattice
 /// turned.
 double energy_ratio(double degrees) {
-  const SceneFile scene =
-      read_scene(std::filesystem::path(FPZ_DATA_DIR) / "scenes/beam_3pb.json",
-                 {"arrangement.angle_deg=" + std::to_string(degrees), "method.release_integrity=0.02",
-                  "method.courant=0.9", "method.threads=1", "boundaries[0].velocity.y.speed=-0.02"});
+  const Scene scene = read_scene(std::filesystem::path(FPZ_DATA_DIR) / "scenes/beam_3pb.json",
+                                 {"arrangement.angle_deg=" + std::to_string(degrees), "method.release_integrity=0.02",
+                                  "method.courant=0.9", "method.threads=1", "boundaries[0].velocity.y.speed=-0.02"});
   const Specimen specimen = make_specimen(scene);
   fpz::sph::Simulation<2> run(specimen.setup);
   while (run.time() < 5.5e-3) {

@@ -91,8 +91,8 @@ Comparison pressed(double inner, double spacing, specimen::Pattern::Kind kind) {
   s.parameters = unbreakable();
   s.arrangement = specimen::place_specimen(body, {kind, 0.0, Point::Zero(), false}, spacing);
   const std::size_t specimen = s.arrangement.size();
-  specimen::place_platen(s.arrangement, body.shape, {Point(1.0, 0.0), Point(1.0, 0.0), 2.0 * half_width, 3, true}, 0);
-  specimen::place_platen(s.arrangement, body.shape, {Point(-1.0, 0.0), Point(-1.0, 0.0), 2.0 * half_width, 3, true}, 1);
+  specimen::place_platen(s.arrangement, body.shape, {Point(1.0, 0.0), Point(1.0, 0.0), 2.0 * half_width, 3}, 0);
+  specimen::place_platen(s.arrangement, body.shape, {Point(-1.0, 0.0), Point(-1.0, 0.0), 2.0 * half_width, 3}, 1);
   const Motion still{0.0, 0.0};
   s.groups = {{"right", {Motion{-speed, ramp}, still}, true}, {"left", {Motion{speed, ramp}, still}, true}};
   s.options.threads = 1;

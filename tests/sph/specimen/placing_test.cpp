@@ -100,7 +100,7 @@ TEST(Placing, PlatensLieOnTheSurface) {
   fpz::sph::Arrangement<2> a;
   a.spacing = 0.02;
   const Disc disc{Point(0, 0), 1.0};
-  place_platen(a, disc, {Point(0, 1), Point(0, 1), 0.2, 3, true}, 0);
+  place_platen(a, disc, {Point(0, 1), Point(0, 1), 0.2, 3}, 0);
   ASSERT_EQ(a.size(), 30u);
   for (std::size_t i = 0; i < a.size(); i += 3) {
     const double x = a.position[i][0];
@@ -109,13 +109,13 @@ TEST(Placing, PlatensLieOnTheSurface) {
   }
   fpz::sph::Arrangement<2> flat;
   flat.spacing = 0.02;
-  place_platen(flat, disc, {Point(0, -1), Point(0, -1), 0.2, 3, false}, 4);
+  place_platen(flat, disc, {Point(0, -1), Point(0, -1), 0.2, 3, Platen::Fit::flat}, 4);
   double highest = -2.0;
   for (const Point& x : flat.position) highest = std::max(highest, x[1]);
   for (std::size_t i = 0; i < flat.size(); i += 3) EXPECT_NEAR(flat.position[i][1], highest, 1e-9);
   EXPECT_LT(highest, -1.0);
   EXPECT_EQ(flat.group.front(), 4);
-  EXPECT_THROW(place_platen(a, disc, {Point(0, 1), Point(0, 1), 4.0, 3, true}, 0), std::invalid_argument);
+  EXPECT_THROW(place_platen(a, disc, {Point(0, 1), Point(0, 1), 4.0, 3}, 0), std::invalid_argument);
 }
 
 }  // namespace

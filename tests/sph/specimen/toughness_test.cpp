@@ -7,7 +7,7 @@
 
 #include "fpz/io/csv.hpp"
 #include "fpz/io/input_error.hpp"
-#include "fpz/specimen/scene_file.hpp"
+#include "fpz/specimen/scene.hpp"
 #include "fpz/specimen/summary.hpp"
 
 namespace {
@@ -99,13 +99,13 @@ TEST(Toughness, FactorsOfAnotherGeometryAreRefused) {
 }
 
 TEST(Toughness, TheSceneInTheOutputFolderNeedsNoOtherFile) {
-  const SceneFile s = read_scene(data / "scenes/scb.json", {"notches[0].angle_deg=20"});
-  const SceneFile again = parse_scene(s.text, "/elsewhere/scene.json", {"notches[0].angle_deg=40"});
+  const Scene s = read_scene(data / "scenes/scb.json", {"notches[0].angle_deg=20"});
+  const Scene again = parse_scene(s.text, "/elsewhere/scene.json", {"notches[0].angle_deg=40"});
   EXPECT_EQ(again.toughness->Y_I, specimen_at(40.0).Y_I);
 }
 
 TEST(Toughness, FollowsFromThePeakLoad) {
-  const SceneFile scene = read_scene(data / "scenes/scb.json");
+  const Scene scene = read_scene(data / "scenes/scb.json");
   History h;
   h.columns = {"deflection",     "load",           "support",         "energy_external",
                "energy_elastic", "energy_kinetic", "energy_fracture", "energy_error"};

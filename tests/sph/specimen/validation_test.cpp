@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "fpz/specimen/crack.hpp"
-#include "fpz/specimen/scene_file.hpp"
+#include "fpz/specimen/scene.hpp"
 #include "fpz/specimen/specimen.hpp"
 
 namespace fpz::specimen {
@@ -22,7 +22,7 @@ struct Tested {
 };
 
 /// Loads a specimen until the load has fallen to `until` times its peak. The load is the mean over 50 steps.
-Tested test(const SceneFile& scene, double until) {
+Tested test(const Scene& scene, double until) {
   constexpr int window = 50;
   const Specimen specimen = make_specimen(scene);
   sph::Simulation<2> run(specimen.setup);
@@ -33,7 +33,7 @@ Tested test(const SceneFile& scene, double until) {
       ADD_FAILURE() << o.message();
       return t;
     }
-    sum += measure(specimen.gauges.at("load"), run, scene.thickness);
+    sum += specimen.gauges.at("load").value(run, scene.thickness);
     if (run.cracked() > 0 && t.first_cracks.empty()) {
       t.first_load = load;
       for (const Spot& s : spots(run, specimen)) {

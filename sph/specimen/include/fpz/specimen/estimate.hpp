@@ -17,7 +17,7 @@ struct Estimate {
 };
 
 /// Runs the specimen for about half a second.
-[[nodiscard]] Estimate estimate(const SceneFile& scene, const Specimen& specimen, int threads);
-[[nodiscard]] std::string estimate_text(const SceneFile& scene, const Specimen& specimen, const Estimate& e);
+[[nodiscard]] Estimate estimate(const Scene& scene, const Specimen& specimen, int threads);
+[[nodiscard]] std::string estimate_text(const Scene& scene, const Specimen& specimen, const Estimate& e);
 
 }  // namespace fpz::specimen

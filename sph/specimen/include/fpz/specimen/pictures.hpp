@@ -20,7 +20,7 @@ struct PictureOutcome {
 [[nodiscard]] PictureOutcome draw_run(const std::filesystem::path& folder, bool force);
 
 /// scene: the particles coloured by boundary group, the outline, notches and gauges.
-[[nodiscard]] PictureOutcome draw_scene(const SceneFile& scene, const Specimen& specimen,
+[[nodiscard]] PictureOutcome draw_scene(const Scene& scene, const Specimen& specimen,
                                         const std::filesystem::path& folder, bool force);
 
 }  // namespace fpz::specimen

@@ -7,6 +7,7 @@
 
 #include "fpz/specimen/geometry.hpp"
 #include "fpz/sph/arrangement.hpp"
+#include "fpz/words.hpp"
 
 namespace fpz::specimen {
 
@@ -34,10 +35,24 @@ struct Platen {
   Point direction = Point::Zero();  ///< outward, any length but 0
   double width = 0.0;               ///< m; at least one column
   int layers = 3;
-  bool follow_surface = true;  ///< every column begins on the surface; else all where the outermost does
+  enum class Fit : std::uint8_t {
+    surface,  ///< every column begins on the surface
+    flat      ///< all begin where the outermost does
+  };
+  Fit fit = Fit::surface;
 };
 
 /// Adds the particles of a platen as group `group`. Throws std::invalid_argument when a column misses the body.
 void place_platen(sph::Arrangement<2>& arrangement, const Shape& shape, const Platen& platen, int group);
 
 }  // namespace fpz::specimen
+
+namespace fpz {
+
+template <>
+struct Words<specimen::Platen::Fit> {
+  static constexpr Word<specimen::Platen::Fit> list[] = {{specimen::Platen::Fit::surface, "surface"},
+                                                         {specimen::Platen::Fit::flat, "flat"}};
+};
+
+}  // namespace fpz

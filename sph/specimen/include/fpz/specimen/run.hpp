@@ -31,52 +31,51 @@ struct RunRequest {
   std::function<void(const Progress&)> progress;
 };
 
-/// What a run has written and measured so far. The part in a checkpoint, besides the state of the particles.
-struct RunRecord {
-  History history;
-  std::vector<Frame> frames;
-  std::vector<double> window;  ///< sums of the gauges since the last row
-  long long window_steps = 0;
-  double peak_load = 0.0;
-  std::vector<unsigned char> levels_done;  ///< load levels after the peak, and deflections, that have their frame
-  double stepping_seconds = 0.0;           ///< wall time of the steps, over all processes
-  double wall_seconds = 0.0;
-};
-
 enum class Ending : unsigned char { finished, interrupted, failed };
+
+/// Wall times over all processes of a run, s.
+struct WallTimes {
+  double stepping = 0.0;  ///< spent in steps
+  double all = 0.0;
+};
 
 struct RunResult {
   Ending ending = Ending::finished;
   std::string reason;  ///< which rule ended it, or what failed
-  RunRecord record;
+  History history;
+  std::vector<Frame> frames;
+  WallTimes seconds;
   std::vector<std::string> warnings;
   std::string report;  ///< the main figures, for a person
 };
 
 /// Files of a run in its folder.
 struct RunFiles {
-  std::filesystem::path scene, history, summary, checkpoint, frames, crack;
+  std::filesystem::path scene, history, summary, checkpoint, crack;
+  std::filesystem::path frames;      ///< a folder
+  std::filesystem::path collection;  ///< names and times of the frames
   explicit RunFiles(const std::filesystem::path& folder);
 };
 
 /// Throws io::OutputError (unwritable folder, not enough space, files in the way), io::InputError (scene, checkpoint).
-[[nodiscard]] RunResult run_scene(const SceneFile& scene, const RunRequest& request);
+[[nodiscard]] RunResult run_scene(const Scene& scene, const RunRequest& request);
 
 /// Steps between rows, and how many steps a run takes at most.
 struct Schedule {
   double time_step = 0.0;
   long long steps = 0, row_every = 1, frame_every = 0;  ///< frame_every 0: none
 };
-[[nodiscard]] Schedule schedule_of(const SceneFile& scene, double time_step);
-
-/// A checkpoint: the scene it belongs to, the record and the particles' state.
-struct Checkpoint {
-  std::string scene_text;
-  RunRecord record;
-  std::vector<unsigned char> state;
-};
-void write_checkpoint(const std::filesystem::path& file, const Checkpoint& checkpoint);
-/// Throws io::InputError when the file is missing, damaged or of another version.
-[[nodiscard]] Checkpoint read_checkpoint(const std::filesystem::path& file);
+[[nodiscard]] Schedule schedule_of(const Scene& scene, double time_step);
 
 }  // namespace fpz::specimen
+
+namespace fpz {
+
+template <>
+struct Words<specimen::Ending> {
+  static constexpr Word<specimen::Ending> list[] = {{specimen::Ending::finished, "finished"},
+                                                    {specimen::Ending::interrupted, "interrupted"},
+                                                    {specimen::Ending::failed, "failed"}};
+};
+
+}  // namespace fpz

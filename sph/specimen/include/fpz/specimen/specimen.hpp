@@ -6,21 +6,11 @@
 #include <vector>
 
 #include "fpz/specimen/crack.hpp"
-#include "fpz/specimen/scene_file.hpp"
+#include "fpz/specimen/scene.hpp"
 #include "fpz/specimen/vtu.hpp"
 #include "fpz/sph/simulation.hpp"
 
 namespace fpz::specimen {
-
-/// A gauge that knows its particles. Value: force and displacement N and m, stress Pa.
-struct BoundGauge {
-  enum class Kind : unsigned char { force, displacement, stress } kind = Kind::force;
-  Point direction = Point::Zero();
-  int component = 0;
-  std::vector<std::size_t> groups;
-  std::vector<std::size_t> of;  ///< indices in the arrangement
-  std::vector<std::vector<std::size_t>> relative_to;
-};
 
 /// Everything that a run needs besides its output.
 struct Specimen {
@@ -30,14 +20,11 @@ struct Specimen {
 };
 
 /// Places the particles and binds the gauges. Throws io::InputError naming the scene when something does not fit.
-[[nodiscard]] Specimen make_specimen(const SceneFile& scene);
+[[nodiscard]] Specimen make_specimen(const Scene& scene);
 
 /// Particles from a CSV (columns x, y; optional volume, group), .vtu or legacy .vtk file (point data volume, group).
 /// Without volumes all have spacing^2. Group -1 is the specimen, others are indices of boundaries.
 [[nodiscard]] sph::Arrangement<2> read_particles(const std::filesystem::path& file, double spacing);
-
-/// Value of a gauge at the present step. Forces are for the whole thickness.
-[[nodiscard]] double measure(const BoundGauge& gauge, const sph::Simulation<2>& run, double thickness);
 
 /// The particles of the specimen for the crack measures (without boundary particles).
 [[nodiscard]] std::vector<Spot> spots(const sph::Simulation<2>& run, const Specimen& specimen);

@@ -23,17 +23,17 @@ struct Findings {
   double balance_error = 0.0;        ///< largest error of the energy balance over the largest external work
 };
 
-[[nodiscard]] Findings findings(const SceneFile& scene, const History& history, double opened);
+[[nodiscard]] Findings findings(const Scene& scene, const History& history, double opened);
 
 /// What a person must know before using the result: not quasi-static, balance drifts, damping, mass scaling.
-[[nodiscard]] std::vector<std::string> warnings_of(const SceneFile& scene, const History& history, const Findings& f);
+[[nodiscard]] std::vector<std::string> warnings_of(const Scene& scene, const History& history, const Findings& f);
 
 /// The main figures in a few lines.
 [[nodiscard]] std::string report_of(const Findings& f);
 
 /// The text of summary.json.
 struct SummaryInput {
-  const SceneFile& scene;
+  const Scene& scene;
   const Specimen& specimen;
   const sph::Simulation<2>& run;
   const RunResult& result;

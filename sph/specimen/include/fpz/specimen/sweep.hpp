@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "fpz/specimen/pictures.hpp"
-#include "fpz/specimen/scene_file.hpp"
+#include "fpz/specimen/scene.hpp"
 
 namespace fpz::specimen {
 
@@ -17,7 +17,7 @@ struct SweepRun {
   std::string label;             ///< of the parameter's value
   double value = 0.0;            ///< of the parameter; NaN where it is no number
   std::filesystem::path folder;  ///< relative to the output folder: <series>/<label>
-  SceneFile scene;
+  Scene scene;
 };
 
 /// Points or a line from a table, drawn with the results in the pictures of the same columns.
@@ -52,7 +52,6 @@ struct Sweep {
 [[nodiscard]] Sweep read_sweep(const std::filesystem::path& file, const Overrides& common = {});
 
 enum class RunStatus : unsigned char { waiting, running, finished, failed, interrupted };
-[[nodiscard]] const char* to_string(RunStatus status);
 
 /// A row of sweep.csv.
 struct SweepRow {
@@ -96,3 +95,16 @@ struct SweepResult {
                                         const std::filesystem::path& folder);
 
 }  // namespace fpz::specimen
+
+namespace fpz {
+
+template <>
+struct Words<specimen::RunStatus> {
+  static constexpr Word<specimen::RunStatus> list[] = {{specimen::RunStatus::waiting, "waiting"},
+                                                       {specimen::RunStatus::running, "running"},
+                                                       {specimen::RunStatus::finished, "finished"},
+                                                       {specimen::RunStatus::failed, "failed"},
+                                                       {specimen::RunStatus::interrupted, "interrupted"}};
+};
+
+}  // namespace fpz

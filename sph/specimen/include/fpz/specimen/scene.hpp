@@ -6,11 +6,11 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "fpz/io/json_locator.hpp"
 #include "fpz/parameters.hpp"
+#include "fpz/specimen/gauge.hpp"
 #include "fpz/specimen/placing.hpp"
 #include "fpz/specimen/toughness.hpp"
 #include "fpz/sph/group.hpp"
@@ -31,33 +31,6 @@ struct Boundary {
   bool elastic = true;
 };
 
-/// Some particles of the undeformed body: a boundary group, those around a point (the nearest one when none is within
-/// the radius), or those in a box.
-struct Site {
-  std::string group;
-  Point centre = Point::Zero();
-  double radius = 0.0;
-  std::optional<Rectangle> box;
-};
-
-/// Force by which boundary groups are held, in a direction. N.
-struct ForceGauge {
-  std::vector<std::string> groups;
-  Point direction = Point::Zero();
-};
-/// Mean displacement of a site, less that of another one, in a direction. m.
-struct DisplacementGauge {
-  Site of;
-  std::vector<Site> relative_to;  ///< the mean of these; none: space
-  Point direction = Point::Zero();
-};
-/// Mean stress of a site. Pa.
-struct StressGauge {
-  Site of;
-  int component = 0;  ///< xx, yy, xy
-};
-using Gauge = std::variant<ForceGauge, DisplacementGauge, StressGauge>;
-
 /// When a run ends. The time always counts; the others when they are given.
 struct StopRules {
   double time = 0.0;                 ///< s
@@ -76,7 +49,7 @@ struct OutputRules {
   bool pictures = true;
 };
 
-struct SceneFile {
+struct Scene {
   std::string name;
   std::string description;
   std::string material_name;
@@ -102,9 +75,9 @@ struct SceneFile {
 using Overrides = std::vector<std::string>;
 
 /// Reads a scene. Throws io::InputError with all problems, each with file, line, key path and nearest valid name.
-[[nodiscard]] SceneFile read_scene(const std::filesystem::path& file, const Overrides& overrides = {});
-[[nodiscard]] SceneFile parse_scene(std::string_view text, const std::filesystem::path& origin,
-                                    const Overrides& overrides = {});
+[[nodiscard]] Scene read_scene(const std::filesystem::path& file, const Overrides& overrides = {});
+[[nodiscard]] Scene parse_scene(std::string_view text, const std::filesystem::path& origin,
+                                const Overrides& overrides = {});
 
 /// Sets one entry of a JSON tree; members that do not exist are added. Problems are added for a malformed override or a
 /// path that leads through something else than objects and arrays.

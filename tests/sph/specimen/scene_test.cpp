@@ -1,4 +1,4 @@
-#include "fpz/specimen/scene_file.hpp"
+#include "fpz/specimen/scene.hpp"
 
 #include <gtest/gtest.h>
 
@@ -24,9 +24,9 @@ std::string complaint(const std::filesystem::path& file, const Overrides& set) {
 
 std::string beam_complaint(const Overrides& set) { return complaint(scenes / "beam_3pb.json", set); }
 
-TEST(SceneFile, TheScenesOfThePaperAreValid) {
+TEST(Scene, TheScenesOfThePaperAreValid) {
   for (const char* name : {"beam_3pb", "scb", "ring"}) {
-    const SceneFile s = read_scene(scenes / (std::string(name) + ".json"), {"spacing=0.002"});
+    const Scene s = read_scene(scenes / (std::string(name) + ".json"), {"spacing=0.002"});
     EXPECT_EQ(s.name, name);
     const Specimen specimen = make_specimen(s);
     EXPECT_NEAR(specimen.area, area(s.body), 1e-9 * specimen.area);
@@ -34,8 +34,8 @@ TEST(SceneFile, TheScenesOfThePaperAreValid) {
   }
 }
 
-TEST(SceneFile, OverridesChangeAnyEntry) {
-  const SceneFile s =
+TEST(Scene, OverridesChangeAnyEntry) {
+  const Scene s =
       read_scene(scenes / "beam_3pb.json",
                  {"spacing=0.002", "method.configuration=updated", "notches[0].angle_deg=30", "method.rve_length=0.005",
                   "boundaries[0].velocity.y.speed=-0.5", "stop.deflection=1e-5", "material=../materials/bellego.json"});
@@ -48,7 +48,7 @@ TEST(SceneFile, OverridesChangeAnyEntry) {
   EXPECT_EQ(s.parameters.cohesion, 2.9e6);
 }
 
-TEST(SceneFile, OverridesAreCheckedLikeTheFile) {
+TEST(Scene, OverridesAreCheckedLikeTheFile) {
   EXPECT_NE(beam_complaint({"method.courrant=0.3"}).find("did you mean \"courant\"?"), std::string::npos);
   EXPECT_NE(beam_complaint({"spacing=-1"}).find("spacing: -1: must be > 0"), std::string::npos);
   EXPECT_NE(beam_complaint({"notches[3].length=1"}).find("there are 1 entries"), std::string::npos);
@@ -57,7 +57,7 @@ TEST(SceneFile, OverridesAreCheckedLikeTheFile) {
   EXPECT_NE(beam_complaint({"method.kernel=cubic"}).find("did you mean \"cubic_spline\"?"), std::string::npos);
 }
 
-TEST(SceneFile, AllProblemsAreReportedWithTheirLines) {
+TEST(Scene, AllProblemsAreReportedWithTheirLines) {
   const std::string text = R"({
   "material": "../materials/johnstone.json",
   "setting": "plain_strain",
@@ -87,9 +87,9 @@ TEST(SceneFile, AllProblemsAreReportedWithTheirLines) {
   }
 }
 
-TEST(SceneFile, TheTextReadsBackAsTheSameScene) {
-  const SceneFile s = read_scene(scenes / "scb.json", {"notches[0].angle_deg=30", "name=a \"quoted\" one"});
-  const SceneFile again = parse_scene(s.text, "/elsewhere/scene.json");
+TEST(Scene, TheTextReadsBackAsTheSameScene) {
+  const Scene s = read_scene(scenes / "scb.json", {"notches[0].angle_deg=30", "name=a \"quoted\" one"});
+  const Scene again = parse_scene(s.text, "/elsewhere/scene.json");
   EXPECT_EQ(again.text, s.text);
   EXPECT_EQ(again.name, "a \"quoted\" one");
   EXPECT_EQ(again.parameters.delta0, s.parameters.delta0);
@@ -100,8 +100,8 @@ TEST(SceneFile, TheTextReadsBackAsTheSameScene) {
   }
 }
 
-TEST(SceneFile, GaugesThatFindNothingAreRefused) {
-  const SceneFile s =
+TEST(Scene, GaugesThatFindNothingAreRefused) {
+  const Scene s =
       read_scene(scenes / "beam_3pb.json", {R"(gauges.far={"stress": "xx", "of": {"low": [5, 5], "high": [6, 6]}})"});
   EXPECT_THROW((void)make_specimen(s), InputError);
   EXPECT_NE(beam_complaint({R"(gauges.load={"stress": "xx", "of": "top"})"}).find("must measure a force"),
@@ -110,22 +110,24 @@ TEST(SceneFile, GaugesThatFindNothingAreRefused) {
             std::string::npos);
 }
 
-TEST(SceneFile, NotchOpeningLooksAtBothFaces) {
-  const Specimen s = make_specimen(read_scene(scenes / "beam_3pb.json", {"notches[0].width=0"}));
+TEST(Scene, NotchOpeningLooksAtBothFaces) {
+  const Scene scene = read_scene(scenes / "beam_3pb.json", {"notches[0].width=0"});
+  const Specimen s = make_specimen(scene);
   const BoundGauge& cmod = s.gauges.at("cmod");
-  ASSERT_EQ(cmod.of.size(), 1u);
-  ASSERT_EQ(cmod.relative_to.at(0).size(), 1u);
-  const Point left = s.setup.arrangement.position[cmod.of[0]],
-              right = s.setup.arrangement.position[cmod.relative_to[0][0]];
-  EXPECT_NEAR((left - right).dot(cmod.direction), 0.004, 1e-12);
+  ASSERT_EQ(cmod.sites.size(), 2u);
+  ASSERT_EQ(cmod.sites[0].size(), 1u);
+  ASSERT_EQ(cmod.sites[1].size(), 1u);
+  const Point left = s.setup.arrangement.position[cmod.sites[0][0]],
+              right = s.setup.arrangement.position[cmod.sites[1][0]];
+  EXPECT_NEAR((left - right).dot(std::get<DisplacementGauge>(scene.gauges.at("cmod")).direction), 0.004, 1e-12);
 }
 
 /// Particles interact around the tip of a notch but never across its faces, whatever its width and angle.
-TEST(SceneFile, NotchesOfAnyWidthSeparateTheirFaces) {
+TEST(Scene, NotchesOfAnyWidthSeparateTheirFaces) {
   for (const char* width : {"0", "0.0005", "\"narrowest\""}) {
     for (const int angle : {0, 15, 30, 45, 54, 60}) {
-      const SceneFile scene = read_scene(scenes / "scb.json", {"notches[0].angle_deg=" + std::to_string(angle),
-                                                               std::string("notches[0].width=") + width});
+      const Scene scene = read_scene(scenes / "scb.json", {"notches[0].angle_deg=" + std::to_string(angle),
+                                                           std::string("notches[0].width=") + width});
       const Specimen s = make_specimen(scene);
       ASSERT_EQ(s.setup.arrangement.cuts.size(), 1u);
       EXPECT_EQ(s.setup.arrangement.cuts[0].corner[0], scene.body.notches[0].mouth);

@@ -1,6 +1,5 @@
-#include "fpz/specimen/scene_file.hpp"
-
 #include "fpz/io/material_file.hpp"
+#include "fpz/specimen/scene.hpp"
 #include "scene_reader.hpp"
 
 namespace fpz::specimen {
@@ -12,7 +11,6 @@ namespace fs = std::filesystem;
 constexpr std::array<std::string_view, 17> root_keys = {
     "name",    "description", "source", "material",   "setting", "thickness", "spacing", "shape", "holes",
     "notches", "arrangement", "method", "boundaries", "gauges",  "toughness", "stop",    "output"};
-constexpr std::array<std::string_view, 2> settings = {"plane_strain", "plane_stress"};
 
 /// The material, and the file's content in place of its name.
 std::optional<io::MaterialFile> read_material_of(const InputReader& r, JsonValue& root) {
@@ -35,7 +33,7 @@ std::optional<io::MaterialFile> read_material_of(const InputReader& r, JsonValue
   return material;
 }
 
-void read_header(const InputReader& r, const Place& root, SceneFile& scene) {
+void read_header(const InputReader& r, const Place& root, Scene& scene) {
   const auto text = [&](std::string_view key, std::string& member) {
     with(root, key, [&](const Place& p) { member = r.text(p, 10'000).value_or(""); });
   };
@@ -45,14 +43,14 @@ void read_header(const InputReader& r, const Place& root, SceneFile& scene) {
   std::string source;
   text("source", source);
   with_required(r, root, "setting", [&](const Place& p) {
-    if (const auto k = choice(r, p, settings)) scene.setting = *k == 0 ? Setting::plane_strain : Setting::plane_stress;
+    scene.setting = choice(r, p, {Setting::plane_strain, Setting::plane_stress}).value_or(scene.setting);
   });
   with_required(r, root, "thickness", [&](const Place& p) { scene.thickness = r.positive(p).value_or(1.0); });
   with_required(r, root, "spacing", [&](const Place& p) { scene.spacing = r.positive(p).value_or(1.0); });
 }
 
 /// Paths of other files as they are valid from anywhere: the scene's copy in the output folder reads the same.
-void make_paths_absolute(JsonValue& root, const SceneFile& scene) {
+void make_paths_absolute(JsonValue& root, const Scene& scene) {
   if (!scene.particles) return;
   for (JsonValue& member : root.items) {
     if (member.key != "arrangement") continue;
@@ -62,8 +60,8 @@ void make_paths_absolute(JsonValue& root, const SceneFile& scene) {
   }
 }
 
-SceneFile read_tree(JsonValue& root, const std::string& origin, const io::ReadLimits& limits, io::Problems& problems) {
-  SceneFile scene;
+Scene read_tree(JsonValue& root, const std::string& origin, const io::ReadLimits& limits, io::Problems& problems) {
+  Scene scene;
   const InputReader r(origin, limits, problems);
   if (!r.object(Place(root), "the keys of a scene")) return scene;
   {
@@ -93,11 +91,11 @@ SceneFile read_tree(JsonValue& root, const std::string& origin, const io::ReadLi
 
 }  // namespace
 
-SceneFile parse_scene(std::string_view text, const fs::path& origin, const Overrides& overrides) {
+Scene parse_scene(std::string_view text, const fs::path& origin, const Overrides& overrides) {
   const io::ReadLimits limits;
   io::Problems problems(limits.problems);
   io::JsonValue root;
-  SceneFile scene;
+  Scene scene;
   if (io::parse_json(text, origin.string(), limits, problems, root)) {
     for (const std::string& o : overrides) apply_override(root, o, origin.string(), problems);
     scene = read_tree(root, origin.string(), limits, problems);
@@ -106,7 +104,7 @@ SceneFile parse_scene(std::string_view text, const fs::path& origin, const Overr
   return scene;
 }
 
-SceneFile read_scene(const fs::path& file, const Overrides& overrides) {
+Scene read_scene(const fs::path& file, const Overrides& overrides) {
   std::string text, error;
   if (!io::load_text(file, io::FileKind::any, io::ReadLimits(), text, error)) {
     throw io::InputError(file.string() + ": cannot be read: " + error);

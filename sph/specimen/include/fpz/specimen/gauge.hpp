@@ -1,0 +1,61 @@
+// Gauges: what a scene wants measured, and the same bound to particles. One file per kind (src/gauge_*.cpp).
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "fpz/specimen/geometry.hpp"
+#include "fpz/sph/simulation.hpp"
+
+namespace fpz::specimen {
+
+/// Some particles of the undeformed body: a boundary group, those around a point (the nearest one when none is within
+/// the radius), or those in a box.
+struct Site {
+  std::string group;
+  Point centre = Point::Zero();
+  double radius = 0.0;
+  std::optional<Rectangle> box;
+};
+
+/// Force by which boundary groups are held, in a direction. N.
+struct ForceGauge {
+  std::vector<std::string> groups;
+  Point direction = Point::Zero();
+};
+/// Mean displacement of a site, less that of another one, in a direction. m.
+struct DisplacementGauge {
+  Site of;
+  std::vector<Site> relative_to;  ///< the mean of these; none: space
+  Point direction = Point::Zero();
+};
+/// A component of a symmetric tensor in the plane; its value is the index in the engine's fields.
+enum class PlaneComponent : std::uint8_t { xx, yy, xy };
+/// Mean stress of a site. Pa.
+struct StressGauge {
+  Site of;
+  PlaneComponent component = PlaneComponent::xx;
+};
+using Gauge = std::variant<ForceGauge, DisplacementGauge, StressGauge>;
+
+/// A gauge that knows its particles.
+struct BoundGauge {
+  /// Its value at the present step, N, m or Pa. Forces are for the whole thickness (m).
+  std::function<double(const sph::Simulation<2>& run, double thickness)> value;
+  std::vector<std::vector<std::size_t>> sites;  ///< particles that it looks at, indices in the arrangement
+};
+
+}  // namespace fpz::specimen
+
+namespace fpz {
+
+template <>
+struct Words<specimen::PlaneComponent> {
+  static constexpr Word<specimen::PlaneComponent> list[] = {
+      {specimen::PlaneComponent::xx, "xx"}, {specimen::PlaneComponent::yy, "yy"}, {specimen::PlaneComponent::xy, "xy"}};
+};
+
+}  // namespace fpz

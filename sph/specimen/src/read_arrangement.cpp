@@ -1,0 +1,102 @@
+// How the particles of the specimen lie: one reader per kind of arrangement, listed in arrangement_kinds.
+#include <cmath>
+
+#include "scene_reader.hpp"
+
+namespace fpz::specimen::detail {
+namespace {
+
+using Keys = std::span<const std::string_view>;
+
+Point default_origin(const Shape& shape) {
+  if (const auto* d = std::get_if<Disc>(&shape)) return d->centre;
+  if (const auto* h = std::get_if<HalfDisc>(&shape)) return h->centre;
+  if (const auto* g = std::get_if<Ring>(&shape)) return g->centre;
+  return extent(shape).first;
+}
+
+/// Angle and origin of a lattice, or the notch that it follows.
+void read_lattice_axes(const InputReader& r, const Place& place, Scene& scene) {
+  Pattern& pattern = scene.pattern;
+  with(place, "angle_deg",
+       [&](const Place& p) { pattern.angle = degree * r.number_between(p, -89.0, 89.0, true).value_or(0.0); });
+  with(place, "origin", [&](const Place& p) {
+    pattern.origin = point(r, p).value_or(pattern.origin);
+    pattern.fit = false;
+  });
+  with(place, "align_to_notch", [&](const Place& p) {
+    const Notch* n = notch_at(r, p, scene);
+    for (const char* other : {"angle_deg", "origin"}) {
+      if (place.value().find(other) != nullptr) r.problem(p, "leaves no choice of " + io::in_quotes(other));
+    }
+    if (n == nullptr) return;
+    const Point d = along(*n);
+    pattern.angle = std::atan2(-d[0], d[1]);
+    if (std::abs(pattern.angle) < 1e-12) pattern.angle = 0.0;
+    pattern.origin = n->mouth;
+    if (pattern.kind == Pattern::Kind::sheared && std::abs(d[1]) < 0.01) {
+      r.problem(p, "this notch is (nearly) parallel to x: columns cannot follow it");
+    }
+  });
+}
+
+constexpr std::string_view lattice_keys[] = {"type", "angle_deg", "origin", "align_to_notch"};
+void read_lattice(const InputReader& r, const Place& place, Scene& scene) {
+  scene.pattern.kind = Pattern::Kind::lattice;
+  read_lattice_axes(r, place, scene);
+}
+
+void read_sheared(const InputReader& r, const Place& place, Scene& scene) {
+  scene.pattern.kind = Pattern::Kind::sheared;
+  scene.pattern.fit = false;
+  read_lattice_axes(r, place, scene);
+}
+
+constexpr std::string_view rings_keys[] = {"type"};
+void read_rings(const InputReader& r, const Place& place, Scene& scene) {
+  scene.pattern.kind = Pattern::Kind::rings;
+  if (std::holds_alternative<Rectangle>(scene.body.shape) || std::holds_alternative<Polygon>(scene.body.shape)) {
+    r.problem(place, "rings need a disc, a half disc or a ring");
+  }
+}
+
+constexpr std::string_view file_keys[] = {"type", "file"};
+void read_file(const InputReader& r, const Place& place, Scene& scene) {
+  with_required(r, place, "file", [&](const Place& p) {
+    if (const auto name = r.text(p, 4000)) {
+      scene.particles = ParticleFile{(std::filesystem::path(r.file()).parent_path() / *name)};
+    }
+  });
+}
+
+struct ArrangementKind {
+  std::string_view word;
+  Keys keys;
+  void (*read)(const InputReader&, const Place&, Scene&);
+};
+constexpr std::array<ArrangementKind, 4> arrangement_kinds = {{{"lattice", lattice_keys, read_lattice},
+                                                               {"sheared", lattice_keys, read_sheared},
+                                                               {"rings", rings_keys, read_rings},
+                                                               {"file", file_keys, read_file}}};
+
+}  // namespace
+
+void read_arrangement(const InputReader& r, const Place& root, Scene& scene) {
+  Pattern& pattern = scene.pattern;
+  pattern.fit = std::holds_alternative<Rectangle>(scene.body.shape);
+  const JsonValue* shape = root.value().find("shape");
+  if (shape != nullptr) pattern.origin = default_origin(scene.body.shape);
+  const JsonValue* given = root.value().find("arrangement");
+  const bool from_file = given != nullptr && given->find("type") != nullptr && given->find("type")->text == "file";
+  if (shape == nullptr && !from_file) (void)r.required(root, "shape");
+  if (given == nullptr) return;
+  const Place place(root, *given);
+  if (!r.object(place, "\"type\"")) return;
+  const ArrangementKind* arrangement = nullptr;
+  with_required(r, place, "type", [&](const Place& p) { arrangement = kind(r, p, arrangement_kinds); });
+  if (arrangement == nullptr) return;
+  r.known_keys(place, arrangement->keys);
+  arrangement->read(r, place, scene);
+}
+
+}  // namespace fpz::specimen::detail

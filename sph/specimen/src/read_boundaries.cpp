@@ -1,0 +1,66 @@
+// Boundaries: rollers and platens, and how they move.
+#include "scene_reader.hpp"
+
+namespace fpz::specimen::detail {
+namespace {
+
+constexpr std::array<std::string_view, 8> boundary_keys = {"name",   "at",  "direction", "width",
+                                                           "layers", "fit", "velocity",  "elastic"};
+constexpr std::array<std::string_view, 2> components = {"x", "y"};
+constexpr std::array<std::string_view, 2> motion_keys = {"speed", "ramp"};
+
+sph::Motion read_motion(const InputReader& r, const Place& p) {
+  sph::Motion m;
+  if (p.value().is(JsonValue::Kind::number)) {
+    m.speed = r.number(p).value_or(0.0);
+    return m;
+  }
+  if (!r.object(p, "\"speed\" and \"ramp\"")) return m;
+  r.known_keys(p, motion_keys);
+  with_required(r, p, "speed", [&](const Place& q) { m.speed = r.number(q).value_or(0.0); });
+  with(p, "ramp", [&](const Place& q) { m.ramp = not_negative(r, q).value_or(0.0); });
+  return m;
+}
+
+Boundary read_boundary(const InputReader& r, const Place& place, const Scene& scene) {
+  Boundary b;
+  if (!r.object(place, "\"name\", \"at\", \"direction\", \"width\" and \"velocity\"")) return b;
+  r.known_keys(place, boundary_keys);
+  with_required(r, place, "name", [&](const Place& p) { b.name = r.text(p, longest_name).value_or(""); });
+  for (const Boundary& other : scene.boundaries) {
+    if (!b.name.empty() && other.name == b.name)
+      r.problem(place, "two boundaries with the name " + io::in_quotes(b.name));
+  }
+  // With particles from a file the boundary may be among them.
+  if (!scene.particles || place.value().find("at") != nullptr) {
+    Platen platen;
+    platen.direction = Point(0.0, 1.0);
+    with_required(r, place, "at", [&](const Place& p) { platen.at = point(r, p).value_or(platen.at); });
+    with_required(r, place, "direction",
+                  [&](const Place& p) { platen.direction = direction(r, p).value_or(platen.direction); });
+    with_required(r, place, "width", [&](const Place& p) { platen.width = not_negative(r, p).value_or(0.0); });
+    with(place, "layers", [&](const Place& p) { platen.layers = r.integer(p, 1, 100).value_or(3); });
+    with(place, "fit", [&](const Place& p) { platen.fit = choice<Platen::Fit>(r, p).value_or(platen.fit); });
+    b.platen = platen;
+  }
+  with(place, "elastic", [&](const Place& p) { b.elastic = boolean(r, p).value_or(true); });
+  with_required(r, place, "velocity", [&](const Place& p) {
+    if (!r.object(p, "the prescribed components, \"x\" or \"y\" (the others are free)")) return;
+    r.known_keys(p, components);
+    for (std::size_t c = 0; c < 2; ++c) {
+      with(p, components[c], [&](const Place& q) { b.velocity[c] = read_motion(r, q); });
+    }
+  });
+  return b;
+}
+
+}  // namespace
+
+void read_boundaries(const InputReader& r, const Place& place, Scene& scene) {
+  if (!r.array(place, "boundaries")) return;
+  for (const JsonValue& item : place.value().items) {
+    scene.boundaries.push_back(read_boundary(r, Place(place, item), scene));
+  }
+}
+
+}  // namespace fpz::specimen::detail

@@ -1,0 +1,92 @@
+// Shapes: one reader per kind, listed in shape_kinds.
+#include "scene_reader.hpp"
+
+namespace fpz::specimen::detail {
+namespace {
+
+using Keys = std::span<const std::string_view>;
+
+constexpr std::string_view rectangle_keys[] = {"type", "low", "high"};
+std::optional<Shape> read_rectangle(const InputReader& r, const Place& place) {
+  Rectangle s;
+  with_required(r, place, "low", [&](const Place& p) { s.low = point(r, p).value_or(s.low); });
+  with_required(r, place, "high", [&](const Place& p) {
+    const auto high = point(r, p);
+    if (!high) return;
+    s.high = *high;
+    if (!((s.high - s.low).array() > 0.0).all()) r.problem(p, "must be above and to the right of \"low\"");
+  });
+  return s;
+}
+
+/// "centre" and "radius", as all round shapes have them.
+Disc read_circle(const InputReader& r, const Place& place) {
+  Disc disc;
+  with(place, "centre", [&](const Place& p) { disc.centre = point(r, p).value_or(disc.centre); });
+  with_required(r, place, "radius", [&](const Place& p) { disc.radius = r.positive(p).value_or(1.0); });
+  return disc;
+}
+
+constexpr std::string_view disc_keys[] = {"type", "centre", "radius"};
+std::optional<Shape> read_disc(const InputReader& r, const Place& place) { return read_circle(r, place); }
+
+std::optional<Shape> read_half_disc(const InputReader& r, const Place& place) {
+  const Disc whole = read_circle(r, place);
+  return HalfDisc{whole.centre, whole.radius};
+}
+
+constexpr std::string_view ring_keys[] = {"type", "centre", "radius", "diameter_ratio"};
+/// A disc when the diameter ratio is 0.
+std::optional<Shape> read_ring(const InputReader& r, const Place& place) {
+  const Disc outer = read_circle(r, place);
+  double ratio = 0.0;
+  with_required(r, place, "diameter_ratio", [&](const Place& p) {
+    const auto x = not_negative(r, p);
+    if (x && *x >= 1.0) r.problem(p, io::shown(p.value().text) + ": must be < 1");
+    ratio = x && *x < 1.0 ? *x : 0.0;
+  });
+  if (ratio == 0.0) return outer;
+  return Ring{outer.centre, ratio * outer.radius, outer.radius};
+}
+
+constexpr std::string_view polygon_keys[] = {"type", "corners"};
+std::optional<Shape> read_polygon(const InputReader& r, const Place& place) {
+  Polygon polygon;
+  with_required(r, place, "corners", [&](const Place& p) {
+    if (!r.array(p, "corners [x, y]")) return;
+    for (const JsonValue& item : p.value().items) {
+      if (const auto c = point(r, Place(p, item))) polygon.corners.push_back(*c);
+    }
+    if (polygon.corners.size() < 3) {
+      r.problem(p, "has fewer than 3 corners");
+    } else if (area(Shape(polygon)) <= 0.0) {
+      r.problem(p, "encloses no area");
+    }
+  });
+  if (polygon.corners.size() < 3) return std::nullopt;
+  return polygon;
+}
+
+struct ShapeKind {
+  std::string_view word;
+  Keys keys;
+  std::optional<Shape> (*read)(const InputReader&, const Place&);
+};
+constexpr std::array<ShapeKind, 5> shape_kinds = {{{"rectangle", rectangle_keys, read_rectangle},
+                                                   {"disc", disc_keys, read_disc},
+                                                   {"half_disc", disc_keys, read_half_disc},
+                                                   {"ring", ring_keys, read_ring},
+                                                   {"polygon", polygon_keys, read_polygon}}};
+
+}  // namespace
+
+std::optional<Shape> read_shape(const InputReader& r, const Place& place) {
+  if (!r.object(place, "\"type\" and the measures of a shape")) return std::nullopt;
+  const ShapeKind* shape = nullptr;
+  with_required(r, place, "type", [&](const Place& p) { shape = kind(r, p, shape_kinds); });
+  if (shape == nullptr) return std::nullopt;
+  r.known_keys(place, shape->keys);
+  return shape->read(r, place);
+}
+
+}  // namespace fpz::specimen::detail
