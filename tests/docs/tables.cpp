@@ -7,6 +7,7 @@
 #include "fpz/driver/history.hpp"
 #endif
 #ifdef FPZ_DOCS_SPH
+#include "fpz/specimen/history_columns.hpp"
 #include "fpz/sph/energy.hpp"
 #include "fpz/sph/option_table.hpp"
 #endif
@@ -95,11 +96,19 @@ std::string energy_terms() {
   }
   return table;
 }
+
+std::string sph_history() {
+  std::string table = heading({"column", "unit", "meaning"});
+  for (const specimen::HistoryColumn& c : specimen::history_columns({})) table += row({code(c.name), c.unit, c.text});
+  return table;
+}
 constexpr auto* method_options_table = method_options;
+constexpr auto* sph_history_table = sph_history;
 constexpr auto* energy_terms_table = energy_terms;
 #else
 constexpr std::string (*method_options_table)() = nullptr;
 constexpr std::string (*energy_terms_table)() = nullptr;
+constexpr std::string (*sph_history_table)() = nullptr;
 #endif
 
 constexpr NamedTable tables[] = {
@@ -108,6 +117,7 @@ constexpr NamedTable tables[] = {
     {"driver-history", driver_history_table},
     {"method-options", method_options_table},
     {"energy-terms", energy_terms_table},
+    {"sph-history", sph_history_table},
 };
 
 }  // namespace
