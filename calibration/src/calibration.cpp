@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <variant>
 
-#include "fpz/calibration/notched_specimen.hpp"
 #include "report/display.hpp"
 
 namespace fpz::calibration {
@@ -31,11 +32,14 @@ Parameters with_values(Parameters p, const std::vector<int>& fitted, const Eigen
   return p;
 }
 
-/// The model as a function of all unknowns: picks the values out and puts the derivatives in their columns.
-Forward make_forward(const Parameters& base, const Model& model, const Unknowns& which) {
-  return [base, model, which](const Eigen::VectorXd& x, bool derivatives) {
-    const Eigen::VectorXd nuisance = x.segment(which.first_nuisance, which.nuisances);
-    Prediction inner = model(with_values(base, which.material, x), nuisance, derivatives);
+/// The model as a function of all unknowns: picks the values out and puts the derivatives in their columns. Nuisances
+/// that are not among the unknowns keep the values `held`.
+Forward make_forward(const Parameters& base, const TestData& test, const Unknowns& which, const Eigen::VectorXd& held) {
+  return [base, test, which, held](const Eigen::VectorXd& x, bool derivatives) {
+    const Eigen::VectorXd own = x.segment(which.first_nuisance, which.nuisances);
+    const Eigen::VectorXd& nuisance = held.size() > 0 ? held : own;
+    const Parameters parameters = with_values(base, which.material, x);
+    Prediction inner = std::visit([&](const auto& t) { return predict(t, parameters, nuisance, derivatives); }, test);
     if (!inner.ok() || !derivatives) return inner;
     Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(inner.values.size(), x.size());
     for (std::size_t k = 0; k < which.material.size(); ++k) {
@@ -93,18 +97,16 @@ std::vector<Unknowns> unknowns_of(const Specification& spec) {
   return list;
 }
 
-/// The model of a data set as a function of all unknowns. Nuisances of a set that is not fitted keep their start
-/// values.
-Forward forward_of(const Specification& spec, const DataSet& set, const Model& model, const Unknowns& which) {
-  if (set.role == Role::fit) return make_forward(spec.start(), model, which);
-  Eigen::VectorXd nuisance(static_cast<Eigen::Index>(set.nuisances.size()));
-  for (std::size_t k = 0; k < set.nuisances.size(); ++k) {
-    nuisance[static_cast<Eigen::Index>(k)] = set.nuisances[k].start;
+/// The test of a data set as a function of all unknowns. Nuisances of a set that is not fitted keep their start values.
+Forward forward_of(const Specification& spec, const DataSet& set, const TestData& test, const Unknowns& which) {
+  Eigen::VectorXd held;
+  if (set.role != Role::fit) {
+    held.resize(static_cast<Eigen::Index>(set.nuisances.size()));
+    for (std::size_t k = 0; k < set.nuisances.size(); ++k) {
+      held[static_cast<Eigen::Index>(k)] = set.nuisances[k].start;
+    }
   }
-  const Model bound = [model, nuisance](const Parameters& p, const Eigen::VectorXd&, bool derivatives) {
-    return model(p, nuisance, derivatives);
-  };
-  return make_forward(spec.start(), bound, which);
+  return make_forward(spec.start(), test, which, held);
 }
 
 /// The values of all unknowns that the comparisons are made with: the best ones, or the start where there are none.
@@ -135,7 +137,7 @@ Eigen::VectorXd band_of(const Calibration& all, const Prediction& x) {
 
 Comparison predict_unfitted(const DataSet& set, const Calibration& all, const Unknowns& which) {
   Comparison c;
-  const Forward forward = forward_of(all.specification, set, set.model, which);
+  const Forward forward = forward_of(all.specification, set, set.test, which);
   const Prediction x = forward(unknowns_for_comparison(all), has_covariance(all));
   c.failure = x.failure;
   if (!x.ok()) return c;
@@ -157,10 +159,13 @@ std::optional<Eigen::VectorXd> dense_abscissa(const Eigen::VectorXd& measured) {
 }
 
 std::optional<SmoothCurve> smooth_curve(const DataSet& set, const Calibration& all, const Unknowns& which) {
-  if (!set.model_at || !set.is_curve()) return std::nullopt;
+  if (!set.is_curve()) return std::nullopt;
   const std::optional<Eigen::VectorXd> abscissa = dense_abscissa(set.abscissa);
   if (!abscissa) return std::nullopt;
-  const Forward forward = forward_of(all.specification, set, set.model_at(*abscissa), which);
+  const auto moved = [&](const auto& test) -> std::optional<TestData> { return at_abscissa(test, *abscissa); };
+  const std::optional<TestData> dense = std::visit(moved, set.test);
+  if (!dense) return std::nullopt;
+  const Forward forward = forward_of(all.specification, set, *dense, which);
   const Prediction x = forward(unknowns_for_comparison(all), has_covariance(all));
   if (!x.ok()) return std::nullopt;
   return SmoothCurve{*abscissa, x.values, band_of(all, x)};
@@ -240,34 +245,30 @@ std::vector<Derived> derive(const Calibration& all, const std::vector<int>& fitt
   return list;
 }
 
-double energy_of(const DataSet& set, const Parameters& p, Setting setting) {
-  if (set.energy) return *set.energy;
-  return energy_from_toughness(*set.toughness, p.young_modulus, p.poisson_ratio, setting);
-}
-
 std::optional<TwoEnergies> confront_energies(const Calibration& all) {
-  const DataSet* one = nullptr;
-  const DataSet* two = nullptr;
+  const FractureEnergyData* one = nullptr;
+  const FractureEnergyData* two = nullptr;
   for (const DataSet& set : all.specification.data) {
-    if (!set.fracture_energy) continue;
-    const DataSet*& place = set.fracture_energy->path == FracturePath::opening ? one : two;
-    if (place == nullptr) place = &set;
+    const auto* energy = std::get_if<FractureEnergyData>(&set.test);
+    if (energy == nullptr) continue;
+    const FractureEnergyData*& place = energy->test.path == FracturePath::opening ? one : two;
+    if (place == nullptr) place = energy;
   }
   if (one == nullptr || two == nullptr) return std::nullopt;
   Parameters p = all.parameters;
   p.rve_length = 1.0;
-  const Setting setting = all.specification.setting;
-  return compare_energies(*one->fracture_energy, energy_of(*one, p, setting), *two->fracture_energy,
-                          energy_of(*two, p, setting), p, default_ranges(p));
+  return compare_energies(one->test, measured_energy(*one, p), two->test, measured_energy(*two, p), p,
+                          default_ranges(p));
 }
 
 void add_warnings(Calibration& all) {
   all.warnings = all.specification.warnings;
   all.warnings.insert(all.warnings.end(), all.result.warnings.begin(), all.result.warnings.end());
-  const auto notched = [](const DataSet& d) { return d.is_notched; };
-  if (std::any_of(all.specification.data.begin(), all.specification.data.end(), notched)) {
-    const std::string text = mode_one_warning(all.parameters);
-    if (!text.empty()) all.warnings.push_back(text);
+  std::set<std::string> said;
+  for (const DataSet& set : all.specification.data) {
+    const std::string text =
+        std::visit([&](const auto& test) { return model_warning(test, all.parameters); }, set.test);
+    if (!text.empty() && said.insert(text).second) all.warnings.push_back(text);
   }
   if (all.energies && all.energies->ok() && !all.energies->consistent) {
     all.warnings.push_back("one delta0 cannot match both fracture energies: the mode I energy alone gives " +
@@ -296,7 +297,7 @@ FitProblem make_problem(const Specification& spec) {
     o.deviation_known = set.deviation_known;
     o.weight = set.weight;
     o.loss = set.loss;
-    o.forward = forward_of(spec, set, set.model, unknowns[k]);
+    o.forward = forward_of(spec, set, set.test, unknowns[k]);
     problem.data.push_back(std::move(o));
   }
   return problem;

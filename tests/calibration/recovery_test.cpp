@@ -75,8 +75,9 @@ class Recovery : public ::testing::Test {
   /// What the model of a data set gives for the true parameters; the set may hold any measured values.
   Eigen::VectorXd true_values(const std::string& set, const std::vector<std::string>& fit) const {
     const Specification s = read(specification(fit, set));
+    const Eigen::VectorXd none = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(s.data[0].nuisances.size()));
     const Prediction x =
-        s.data[0].model(truth(), Eigen::VectorXd::Zero(static_cast<Eigen::Index>(s.data[0].nuisances.size())), false);
+        std::visit([&](const auto& test) { return predict(test, truth(), none, false); }, s.data[0].test);
     EXPECT_TRUE(x.ok()) << x.failure;
     return x.values;
   }

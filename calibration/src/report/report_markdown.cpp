@@ -200,8 +200,8 @@ class MarkdownReport {
     for (Eigen::Index k = 0; k < set.measured.size(); ++k) {
       const auto show = [&](double x) {
         if (!unit.empty()) return digits(x / set.value_axis.factor, 5) + ' ' + pretty_unit(unit);
-        return set.labels[static_cast<std::size_t>(k)].starts_with("brazilian_load") ? shown_value(x, "N", 5)
-                                                                                     : shown_value(x, "Pa", 5);
+        const auto row = static_cast<std::size_t>(k);
+        return shown_value(x, std::visit([row](const auto& test) { return unit_of_value(test, row); }, set.test), 5);
       };
       out_ << "| " << cell(set.labels[static_cast<std::size_t>(k)]) << " | " << show(set.measured[k]) << " | "
            << show(c.predicted[k]) << " | " << percent(c.predicted[k] / set.measured[k] - 1.0, 3) << " | "

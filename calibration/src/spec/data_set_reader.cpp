@@ -12,11 +12,17 @@ constexpr std::size_t longest_text = 4000;
 
 constexpr std::array<std::string_view, 2> loss_keys = {"kind", "scale"};
 
-constexpr std::array<std::string_view, 6> kind_names = {"fracture_energy", "strength",     "traction_separation",
-                                                        "stress_strain",   "notched_beam", "semicircular_bend"};
-constexpr std::array<KindReader, kind_names.size()> kind_readers = {read_fracture_energy,     read_strength,
-                                                                    read_traction_separation, read_stress_strain,
-                                                                    read_notched_beam,        read_semicircular_bend};
+/// One line per kind.
+struct KindRow {
+  std::string_view name;
+  KindReader read;
+};
+constexpr KindRow kinds[] = {{"fracture_energy", read_fracture_energy},
+                             {"strength", read_strength},
+                             {"traction_separation", read_traction_separation},
+                             {"stress_strain", read_stress_strain},
+                             {"notched_beam", read_notched_beam},
+                             {"semicircular_bend", read_semicircular_bend}};
 
 void read_loss(const Context& c, const Place& at, DataSet& out) {
   if (!c.reader.object(at, "\"kind\" and \"scale\"")) return;
@@ -87,9 +93,11 @@ std::optional<DataSet> read_data_set(const SetContext& s, const Place& set) {
   if (const JsonValue* weight = set.value().find("weight")) read_weight(c, Place(set, *weight), out);
   if (const JsonValue* loss = set.value().find("loss")) read_loss(c, Place(set, *loss), out);
   if (const JsonValue* kind = c.reader.required(set, "kind")) {
-    if (const auto k = read_choice(c, Place(set, *kind), "kind", kind_names)) {
-      out.kind = kind_names[*k];
-      kind_readers[*k](s, set, out);
+    std::vector<std::string_view> names;
+    for (const KindRow& row : kinds) names.push_back(row.name);
+    if (const auto k = read_choice(c, Place(set, *kind), "kind", names)) {
+      out.kind = kinds[*k].name;
+      kinds[*k].read(s, set, out);
     }
   }
   if (c.reader.problems().size() != before) return std::nullopt;

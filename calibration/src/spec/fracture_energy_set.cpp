@@ -80,14 +80,22 @@ void read_fracture_energy(const SetContext& s, const Place& set, DataSet& out) {
     out.deviation_words = std::move(d->words);
     if (!d->known) c.problem(set, "a single value needs a known deviation");
   }
-  out.fracture_energy = test;
-  if (is_energy) out.energy = *value;
-  if (!is_energy) out.toughness = *value;
-  const Setting setting = s.setting;
-  out.model = [test, is_energy, setting](const Parameters& p, const Eigen::VectorXd&, bool derivatives) {
-    Prediction x = predict(test, p, derivatives);
-    return is_energy ? x : toughness_of(std::move(x), p, setting, derivatives);
-  };
+  out.test = FractureEnergyData{test, !is_energy, *value, s.setting};
 }
 
 }  // namespace fpz::calibration::detail
+
+namespace fpz::calibration {
+
+Prediction predict(const FractureEnergyData& data, const Parameters& p, const Eigen::VectorXd& /*nuisance*/,
+                   bool derivatives) {
+  Prediction x = predict(data.test, p, derivatives);
+  return data.is_toughness ? detail::toughness_of(std::move(x), p, data.setting, derivatives) : x;
+}
+
+double measured_energy(const FractureEnergyData& data, const Parameters& p) {
+  if (!data.is_toughness) return data.measured;
+  return energy_from_toughness(data.measured, p.young_modulus, p.poisson_ratio, data.setting);
+}
+
+}  // namespace fpz::calibration

@@ -10,9 +10,6 @@
 namespace fpz::calibration::detail {
 namespace {
 
-constexpr double default_from = 0.1;  ///< part of the rise, over the peak, that gives the initial slope
-constexpr double default_to = 0.4;
-
 const char* label_of(Gauge gauge) {
   switch (gauge) {
     case Gauge::cmod:
@@ -158,54 +155,29 @@ std::vector<Eigen::Index> read_nuisances(const SetContext& s, const Place& set, 
   return places;
 }
 
-std::pair<double, double> read_slope_part(const SetContext& s, const Place& set) {
-  std::pair<double, double> part{default_from, default_to};
+void read_slope_part(const SetContext& s, const Place& set, NotchedData& data) {
   const JsonValue* given = set.value().find("initial_slope");
-  if (given == nullptr) return part;
+  if (given == nullptr) return;
   const Place at(set, *given);
-  if (!s.c.reader.object(at, "\"from\" and \"to\", over the peak load")) return part;
+  if (!s.c.reader.object(at, "\"from\" and \"to\", over the peak load")) return;
   s.c.reader.known_keys(at, slope_keys);
   if (const JsonValue* v = given->find("from")) {
-    part.first = s.c.reader.number_between(Place(at, *v), 0.0, 1.0, true).value_or(part.first);
+    data.slope_from = s.c.reader.number_between(Place(at, *v), 0.0, 1.0, true).value_or(data.slope_from);
   }
   if (const JsonValue* v = given->find("to")) {
-    part.second = s.c.reader.number_between(Place(at, *v), 0.0, 1.0, true).value_or(part.second);
+    data.slope_to = s.c.reader.number_between(Place(at, *v), 0.0, 1.0, true).value_or(data.slope_to);
   }
-  if (!(part.first < part.second)) s.c.problem(at, "\"from\" must be below \"to\"");
-  return part;
-}
-
-std::string slope_words(const InitialModulus& m, std::pair<double, double> part) {
-  return "straight line through " + std::to_string(m.points) + " points between " + io::exact(part.first) + " and " +
-         io::exact(part.second) +
-         " of the peak load; a process zone that forms before flattens it, so the modulus is a lower bound";
-}
-
-Model make_model(const NotchedSpecimenTest& test, std::vector<Eigen::Index> places) {
-  const auto count = static_cast<Eigen::Index>(nuisances(test.gauge).size());
-  return
-      [test, places = std::move(places), count](const Parameters& p, const Eigen::VectorXd& fitted, bool derivatives) {
-        Eigen::VectorXd all = Eigen::VectorXd::Zero(count);
-        all(places) = fitted;
-        Prediction x = predict(test, p, all, derivatives);
-        if (!x.ok() || !derivatives) return x;
-        Eigen::MatrixXd jacobian(x.values.size(), parameter_count + fitted.size());
-        jacobian.leftCols(parameter_count) = x.jacobian.leftCols(parameter_count);
-        for (std::size_t k = 0; k < places.size(); ++k) {
-          jacobian.col(parameter_count + static_cast<Eigen::Index>(k)) = x.jacobian.col(parameter_count + places[k]);
-        }
-        x.jacobian = std::move(jacobian);
-        return x;
-      };
+  if (!(data.slope_from < data.slope_to)) s.c.problem(at, "\"from\" must be below \"to\"");
 }
 
 void read_notched(const SetContext& s, const Place& set, SpecimenShape shape, DataSet& out) {
   const Context& c = s.c;
   c.reader.known_keys(set, set_keys({"geometry", "nuisance", "initial_slope"}, curve_keys));
   const std::size_t before = c.reader.problems().size();
-  NotchedSpecimenTest test;
+  NotchedData data;
+  NotchedSpecimenTest& test = data.test;
   test.specimen = read_geometry(s, set, shape);
-  const auto part = read_slope_part(s, set);
+  read_slope_part(s, set, data);
   std::vector<Wanted> gauges;
   for (const Word<Gauge>& word : Words<Gauge>::list) gauges.push_back({word.text, Quantity::length});
   const auto which = which_column(c, set, gauges);
@@ -222,29 +194,10 @@ void read_notched(const SetContext& s, const Place& set, SpecimenShape shape, Da
   test.readings = out.abscissa;
   const Validation found = validate(test);
   for (const Violation& v : found.errors) c.problem(set, v.field + " = " + io::exact(v.value) + ": " + v.constraint);
-  std::vector<Eigen::Index> places = read_nuisances(s, set, test.gauge, out);
+  data.fitted = read_nuisances(s, set, test.gauge, out);
   out.abscissa_axis = readable_axis(label_of(test.gauge), Quantity::length, out.abscissa.maxCoeff());
   out.value_axis = readable_axis("Load", Quantity::force, largest);
-  out.is_notched = true;
-  out.model = make_model(test, places);
-  out.model_at = [test, places](const Eigen::VectorXd& readings) {
-    NotchedSpecimenTest other = test;
-    other.readings = readings;
-    return make_model(other, places);
-  };
-  out.initial_modulus = [test, part, load = out.measured](const Parameters& p) {
-    ModulusEstimate e;
-    try {
-      const InitialModulus m =
-          initial_modulus(test.specimen, p.poisson_ratio, test.readings, load, part.first, part.second, test.gauge);
-      e.value = m.value;
-      e.standard_error = m.standard_error;
-      e.words = slope_words(m, part);
-    } catch (const std::invalid_argument& why) {
-      e.failure = why.what();
-    }
-    return e;
-  };
+  out.test = std::move(data);
 }
 
 }  // namespace
@@ -258,3 +211,47 @@ void read_semicircular_bend(const SetContext& s, const Place& set, DataSet& out)
 }
 
 }  // namespace fpz::calibration::detail
+
+namespace fpz::calibration {
+
+Prediction predict(const NotchedData& data, const Parameters& p, const Eigen::VectorXd& nuisance, bool derivatives) {
+  Eigen::VectorXd all = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(nuisances(data.test.gauge).size()));
+  all(data.fitted) = nuisance;
+  Prediction x = predict(data.test, p, all, derivatives);
+  if (!x.ok() || !derivatives) return x;
+  Eigen::MatrixXd jacobian(x.values.size(), parameter_count + nuisance.size());
+  jacobian.leftCols(parameter_count) = x.jacobian.leftCols(parameter_count);
+  for (std::size_t k = 0; k < data.fitted.size(); ++k) {
+    jacobian.col(parameter_count + static_cast<Eigen::Index>(k)) = x.jacobian.col(parameter_count + data.fitted[k]);
+  }
+  x.jacobian = std::move(jacobian);
+  return x;
+}
+
+std::optional<NotchedData> at_abscissa(const NotchedData& data, const Eigen::VectorXd& readings) {
+  NotchedData other = data;
+  other.test.readings = readings;
+  return other;
+}
+
+std::optional<ModulusEstimate> modulus_from_slope(const NotchedData& data, const Eigen::VectorXd& loads,
+                                                  const Parameters& p) {
+  const NotchedSpecimenTest& test = data.test;
+  ModulusEstimate e;
+  try {
+    const InitialModulus m = initial_modulus(test.specimen, p.poisson_ratio, test.readings, loads, data.slope_from,
+                                             data.slope_to, test.gauge);
+    e.value = m.value;
+    e.standard_error = m.standard_error;
+    e.words = "straight line through " + std::to_string(m.points) + " points between " + io::exact(data.slope_from) +
+              " and " + io::exact(data.slope_to) +
+              " of the peak load; a process zone that forms before flattens it, so the modulus is a lower bound";
+  } catch (const std::invalid_argument& why) {
+    e.failure = why.what();
+  }
+  return e;
+}
+
+std::string model_warning(const NotchedData& /*data*/, const Parameters& p) { return mode_one_warning(p); }
+
+}  // namespace fpz::calibration

@@ -145,8 +145,10 @@ class SpecificationReader {
       for (const DataSet& d : spec.data) names.push_back(d.name);
       return problem("no data set " + io::in_quotes(*e.slope_of) + io::suggestion(*e.slope_of, names));
     }
-    if (!set->initial_modulus) return problem("a data set of kind \"" + set->kind + "\" has no initial slope");
-    const ModulusEstimate modulus = set->initial_modulus(spec.start());
+    const std::optional<ModulusEstimate> estimate =
+        std::visit([&](const auto& test) { return modulus_from_slope(test, set->measured, spec.start()); }, set->test);
+    if (!estimate) return problem("a data set of kind \"" + set->kind + "\" has no initial slope");
+    const ModulusEstimate& modulus = *estimate;
     if (!modulus.failure.empty()) return problem(modulus.failure);
     const Typical typical = typical_parameter("young_modulus");
     const Judgement j = judge("the modulus from the initial slope of \"" + set->name + '"',

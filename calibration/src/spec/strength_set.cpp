@@ -195,9 +195,7 @@ void read_strength(const SetContext& s, const Place& set, DataSet& out) {
   out.abscissa = Eigen::VectorXd::LinSpaced(out.measured.size(), 1.0, static_cast<double>(out.measured.size()));
   out.labels = points.labels;
   out.value_axis = {"Strength", "", 1.0};
-  out.model = [test = points.test](const Parameters& p, const Eigen::VectorXd&, bool derivatives) {
-    return predict(test, p, derivatives);
-  };
+  out.test = points.test;
 }
 
 }  // namespace fpz::calibration::detail

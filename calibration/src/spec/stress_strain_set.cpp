@@ -101,9 +101,7 @@ void read_stress_strain(const SetContext& s, const Place& set, DataSet& out) {
   out.abscissa_axis = {over_time ? "Path time (stages)" : "Strain " + std::string(abscissa_name), "", 1.0};
   out.value_axis = readable_axis((*measured < 6 ? "Strain " : "Stress ") + std::string(component_columns[*measured]),
                                  quantity_of(*measured), largest);
-  out.model = [test](const Parameters& p, const Eigen::VectorXd&, bool derivatives) {
-    return predict(test, p, derivatives);
-  };
+  out.test = std::move(test);
 }
 
 }  // namespace fpz::calibration::detail

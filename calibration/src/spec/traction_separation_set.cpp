@@ -115,9 +115,7 @@ void read_traction_separation(const SetContext& s, const Place& set, DataSet& ou
   for (const Eigen::Index k : curve->used) test.points.push_back({static_cast<int>(k), *which});
   out.abscissa_axis = readable_axis(labels[abscissa], Quantity::length, largest_jump);
   out.value_axis = readable_axis(labels[measured], columns[measured].quantity, largest);
-  out.model = [test](const Parameters& p, const Eigen::VectorXd&, bool derivatives) {
-    return predict(test, p, derivatives);
-  };
+  out.test = std::move(test);
 }
 
 }  // namespace fpz::calibration::detail

@@ -2,34 +2,27 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <functional>
+#include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <variant>
 #include <vector>
 
 #include "fpz/calibration/fit.hpp"
-#include "fpz/calibration/fracture_energy.hpp"
-#include "fpz/calibration/prediction.hpp"
+#include "fpz/calibration/fracture_energy_data.hpp"
+#include "fpz/calibration/notched_data.hpp"
+#include "fpz/calibration/strength.hpp"
+#include "fpz/calibration/stress_strain.hpp"
+#include "fpz/calibration/traction_separation.hpp"
 
 namespace fpz::calibration {
-
-/// Predictions of a data set for given material parameters and its own nuisance parameters. Columns of the Jacobian:
-/// the material parameters, then the nuisances.
-using Model = std::function<Prediction(const Parameters&, const Eigen::VectorXd& nuisance, bool derivatives)>;
 
 /// What an axis of a picture shows: `label` with the unit, and the factor that turns the shown number into SI.
 struct Axis {
   std::string label;
   std::string unit;
   double factor = 1.0;
-};
-
-/// A modulus read off the rise of a curve.
-struct ModulusEstimate {
-  double value = 0.0;           ///< E, Pa
-  double standard_error = 0.0;  ///< Pa
-  std::string words;            ///< which points were used, and how good the straight line is
-  std::string failure;          ///< empty when there is a value
 };
 
 enum class Role {
@@ -47,6 +40,47 @@ struct fpz::Words<fpz::calibration::Role> {
 
 namespace fpz::calibration {
 
+/// What was tested: one struct per kind of test, from a header of its own.
+using TestData = std::variant<FractureEnergyData, StrengthTest, TractionSeparationTest, StressStrainTest, NotchedData>;
+
+// What the kinds answer. Here are the answers of a kind that has none of its own; NotchedData and others that have
+// overload them in their headers.
+
+/// Predictions for given material parameters and the set's own nuisance parameters. Columns of the Jacobian: the
+/// material parameters, then the nuisances.
+template <class Test>
+[[nodiscard]] Prediction predict(const Test& test, const Parameters& parameters, const Eigen::VectorXd& /*nuisance*/,
+                                 bool derivatives) {
+  return predict(test, parameters, derivatives);
+}
+
+/// The same test at other abscissae, in growing order, for drawing; nothing where the kind cannot.
+template <class Test>
+[[nodiscard]] std::optional<Test> at_abscissa(const Test& /*test*/, const Eigen::VectorXd& /*abscissa*/) {
+  return std::nullopt;
+}
+
+/// Young's modulus from the initial slope; nothing where the kind has none.
+template <class Test>
+[[nodiscard]] std::optional<ModulusEstimate> modulus_from_slope(const Test& /*test*/,
+                                                                const Eigen::VectorXd& /*measured*/,
+                                                                const Parameters& /*parameters*/) {
+  return std::nullopt;
+}
+
+/// What the kind assumes that the model would not do with these parameters; empty when there is nothing to say.
+template <class Test>
+[[nodiscard]] std::string model_warning(const Test& /*test*/, const Parameters& /*parameters*/) {
+  return {};
+}
+
+/// SI unit of value k, for kinds whose values have several.
+template <class Test>
+[[nodiscard]] std::string_view unit_of_value(const Test& /*test*/, std::size_t /*k*/) {
+  return {};
+}
+
+/// What all kinds have in common, and the test itself.
 struct DataSet {
   std::string name;
   std::string kind;    ///< as in the specification
@@ -66,16 +100,7 @@ struct DataSet {
   Loss loss;
 
   std::vector<FitParameter> nuisances;
-  Model model;
-  /// The same test at other abscissae, in growing order, for drawing; empty where the kind has none.
-  std::function<Model(const Eigen::VectorXd& abscissa)> model_at;
-
-  std::optional<FractureEnergyTest> fracture_energy;
-  std::optional<double> energy;                                       ///< measured with it, J/m^2
-  std::optional<double> toughness;                                    ///< or this, Pa sqrt(m)
-  std::function<ModulusEstimate(const Parameters&)> initial_modulus;  ///< empty where the kind has none
-
-  bool is_notched = false;  ///< assumes a straight crack in mode I
+  TestData test;
 
   [[nodiscard]] bool is_curve() const { return labels.empty(); }
 };

@@ -3,6 +3,8 @@
 // Inputs and results follow the laboratory: compressive stresses are positive numbers here, as are the strengths.
 #pragma once
 
+#include <cstddef>
+#include <string_view>
 #include <vector>
 
 #include "fpz/calibration/prediction.hpp"
@@ -46,6 +48,11 @@ struct StrengthPoint {
 struct StrengthTest {
   std::vector<StrengthPoint> points;
 };
+
+/// SI unit of the measured value of specimen k.
+[[nodiscard]] inline std::string_view unit_of_value(const StrengthTest& test, std::size_t k) {
+  return test.points[k].kind == StrengthKind::brazilian_load ? "N" : "Pa";
+}
 
 /// 2P/(pi D t), Pa: the tension at the centre of an elastic disc under the load P (N). The compression there is three
 /// times as large.

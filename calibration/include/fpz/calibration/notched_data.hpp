@@ -1,0 +1,41 @@
+// Data of the kinds "notched_beam" and "semicircular_bend": loads at the readings of a gauge.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fpz/calibration/notched_specimen.hpp"
+
+namespace fpz::calibration {
+
+/// A modulus read off the rise of a curve.
+struct ModulusEstimate {
+  double value = 0.0;           ///< E, Pa
+  double standard_error = 0.0;  ///< Pa
+  std::string words;            ///< which points were used, and how good the straight line is
+  std::string failure;          ///< empty when there is a value
+};
+
+struct NotchedData {
+  NotchedSpecimenTest test;
+  std::vector<Eigen::Index> fitted;  ///< places in nuisances(test.gauge) of those that are fitted; the others are 0
+  double slope_from = 0.1;           ///< part of the rise, over the peak load, that gives the initial slope
+  double slope_to = 0.4;
+};
+
+/// Loads at the readings; `nuisance` has the fitted ones.
+[[nodiscard]] Prediction predict(const NotchedData& data, const Parameters& parameters, const Eigen::VectorXd& nuisance,
+                                 bool derivatives);
+
+/// The same test at other readings, in growing order.
+[[nodiscard]] std::optional<NotchedData> at_abscissa(const NotchedData& data, const Eigen::VectorXd& readings);
+
+/// Young's modulus from the measured loads.
+[[nodiscard]] std::optional<ModulusEstimate> modulus_from_slope(const NotchedData& data, const Eigen::VectorXd& loads,
+                                                                const Parameters& parameters);
+
+/// See mode_one_warning().
+[[nodiscard]] std::string model_warning(const NotchedData& data, const Parameters& parameters);
+
+}  // namespace fpz::calibration
