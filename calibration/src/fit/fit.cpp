@@ -234,7 +234,7 @@ void require_valid_options(const FitProblem& problem, const FitOptions& options)
 FitResult fit(const FitProblem& problem, const FitOptions& options) {
   require_valid(problem);
   require_valid_options(problem, options);
-  LeastSquares solved = make_least_squares(problem);
+  LeastSquares solved(problem);
   assume_noise(solved);
   const MultiStart runs = multi_start(solved, options);
   if (runs.minima.empty()) return no_prediction(runs);

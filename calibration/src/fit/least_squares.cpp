@@ -32,31 +32,35 @@ Rho from(const ceres::LossFunction& loss, double squared) {
 
 }  // namespace
 
-Variable make_variable(const FitParameter& p) {
-  Variable v;
-  v.lower = p.lower;
-  v.upper = p.upper;
-  v.logarithmic = p.lower > 0.0 && p.upper >= 10.0 * p.lower;
-  v.reference = v.logarithmic ? std::sqrt(p.lower) * std::sqrt(p.upper) : std::max(-p.lower, p.upper);
-  if (!v.logarithmic && p.upper <= 0.0) v.reference = -p.lower;
-  return v;
+Variable::Variable(const FitParameter& p) : lower_(p.lower), upper_(p.upper) {
+  logarithmic_ = p.lower > 0.0 && p.upper >= 10.0 * p.lower;
+  reference_ = logarithmic_ ? std::sqrt(p.lower) * std::sqrt(p.upper) : std::max(-p.lower, p.upper);
+  if (!logarithmic_ && p.upper <= 0.0) reference_ = -p.lower;
 }
 
-double to_value(const Variable& v, double z) {
-  const double x = v.logarithmic ? v.reference * std::exp(z) : v.reference * z;
-  return std::clamp(x, v.lower, v.upper);  // rounding must not carry a parameter over its bound
+double Variable::value(double z) const {
+  const double x = logarithmic_ ? reference_ * std::exp(z) : reference_ * z;
+  return std::clamp(x, lower_, upper_);  // rounding must not carry a parameter over its bound
 }
 
-double to_z(const Variable& v, double value) {
-  return v.logarithmic ? std::log(value / v.reference) : value / v.reference;
+double Variable::z(double value) const { return logarithmic_ ? std::log(value / reference_) : value / reference_; }
+
+double Variable::slope(double z) const { return logarithmic_ ? reference_ * std::exp(z) : reference_; }
+
+int Variable::side(double z) const {
+  const double close = 1e-10 * (upper() - lower());
+  if (z <= lower() + close) return -1;
+  return z >= upper() - close ? 1 : 0;
 }
 
-double slope(const Variable& v, double z) { return v.logarithmic ? v.reference * std::exp(z) : v.reference; }
+double Variable::size(double value) const {
+  if (logarithmic_) return value;
+  const double range = upper_ - lower_;
+  return std::clamp(std::abs(value), 0.1 * range, range);
+}
 
-LeastSquares make_least_squares(const FitProblem& problem) {
-  LeastSquares out;
-  out.parameters = problem.parameters;
-  for (const FitParameter& p : problem.parameters) out.variables.push_back(make_variable(p));
+LeastSquares::LeastSquares(const FitProblem& problem) : parameters(problem.parameters) {
+  for (const FitParameter& p : parameters) variables.emplace_back(p);
   for (const Observations& data : problem.data) {
     RowSet set;
     set.name = data.name;
@@ -66,26 +70,29 @@ LeastSquares make_least_squares(const FitProblem& problem) {
     set.loss = data.loss;
     set.forward = data.forward;
     set.estimated = !data.deviation_known;
-    out.sets.push_back(std::move(set));
+    sets.push_back(std::move(set));
   }
-  for (int k = 0; k < out.size(); ++k) {
-    const FitParameter& p = out.parameters[static_cast<std::size_t>(k)];
-    if (p.prior) out.sets.push_back(prior_rows(p, k, out.size()));
+  for (int k = 0; k < size(); ++k) {
+    const FitParameter& p = parameters[static_cast<std::size_t>(k)];
+    if (p.prior) sets.push_back(prior_rows(p, k, size()));
   }
-  return out;
 }
 
-Eigen::VectorXd to_values(const LeastSquares& problem, const Eigen::VectorXd& z) {
+Eigen::VectorXd LeastSquares::values(const Eigen::VectorXd& z) const {
   Eigen::VectorXd out(z.size());
-  for (Eigen::Index k = 0; k < z.size(); ++k) out[k] = to_value(problem.variables[static_cast<std::size_t>(k)], z[k]);
+  for (Eigen::Index k = 0; k < z.size(); ++k) out[k] = variable(k).value(z[k]);
   return out;
 }
 
-Eigen::VectorXd to_z(const LeastSquares& problem, const Eigen::VectorXd& values) {
+Eigen::VectorXd LeastSquares::z(const Eigen::VectorXd& values) const {
   Eigen::VectorXd out(values.size());
-  for (Eigen::Index k = 0; k < values.size(); ++k) {
-    out[k] = to_z(problem.variables[static_cast<std::size_t>(k)], values[k]);
-  }
+  for (Eigen::Index k = 0; k < values.size(); ++k) out[k] = variable(k).z(values[k]);
+  return out;
+}
+
+Eigen::VectorXd LeastSquares::slopes(const Eigen::VectorXd& z) const {
+  Eigen::VectorXd out(z.size());
+  for (Eigen::Index k = 0; k < z.size(); ++k) out[k] = variable(k).slope(z[k]);
   return out;
 }
 
@@ -172,11 +179,7 @@ Stack gauss_newton_stack(const LeastSquares& problem, const Eigen::VectorXd& val
   Eigen::Index rows = 0;
   for (const RowSet& set : problem.sets) rows += set.size();
   Stack out{Eigen::VectorXd(rows), Eigen::MatrixXd(rows, problem.size())};
-  Eigen::VectorXd slopes(problem.size());
-  for (Eigen::Index j = 0; j < slopes.size(); ++j) {
-    const Variable& v = problem.variables[static_cast<std::size_t>(j)];
-    slopes[j] = slope(v, to_z(v, values[j]));
-  }
+  const Eigen::VectorXd slopes = problem.slopes(problem.z(values));
   Eigen::Index first = 0;
   for (std::size_t k = 0; k < problem.sets.size(); ++k) {
     const RowSet& set = problem.sets[k];

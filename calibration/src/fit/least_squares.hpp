@@ -10,20 +10,30 @@
 
 namespace fpz::calibration::detail {
 
-/// The solver's variable of one parameter. Positive parameters whose bounds span a factor of ten or more:
+/// One unknown in the space of the solver. Positive parameters whose bounds span a factor of ten or more:
 /// z = ln(value/reference) with the geometric mean of the bounds; all others: z = value/reference with the larger
-/// bound.
-struct Variable {
-  bool logarithmic = false;
-  double reference = 1.0;
-  double lower = 0.0;  ///< bounds of the parameter itself
-  double upper = 0.0;
-};
+/// bound. Values enter and leave here; all else of the fit that steps or compares does so in z.
+class Variable {
+ public:
+  explicit Variable(const FitParameter& p);
 
-[[nodiscard]] Variable make_variable(const FitParameter& p);
-[[nodiscard]] double to_value(const Variable& v, double z);
-[[nodiscard]] double to_z(const Variable& v, double value);
-[[nodiscard]] double slope(const Variable& v, double z);  ///< d value / d z
+  [[nodiscard]] double z(double value) const;
+  [[nodiscard]] double value(double z) const;  ///< within the bounds, whatever rounding does
+  [[nodiscard]] double slope(double z) const;  ///< d value / d z
+  [[nodiscard]] double lower() const { return z(lower_); }
+  [[nodiscard]] double upper() const { return z(upper_); }
+  /// -1 or 1 at the lower or upper bound, else 0.
+  [[nodiscard]] int side(double z) const;
+  /// The size that relative changes of a value refer to: the value itself; with a linear variable at least a tenth and
+  /// at most the whole of the range between the bounds.
+  [[nodiscard]] double size(double value) const;
+
+ private:
+  bool logarithmic_ = false;
+  double reference_ = 1.0;
+  double lower_ = 0.0;  ///< bounds of the parameter itself
+  double upper_ = 0.0;
+};
 
 /// A data set, or a prior as a data set of one value.
 struct RowSet {
@@ -40,17 +50,20 @@ struct RowSet {
   [[nodiscard]] Eigen::Index size() const { return measured.size(); }
 };
 
+/// The least-squares problem in its own space, made from the problem in parameter values.
 struct LeastSquares {
+  explicit LeastSquares(const FitProblem& problem);
+
   std::vector<FitParameter> parameters;
   std::vector<Variable> variables;
   std::vector<RowSet> sets;  ///< the data sets in the order of the problem, then the priors
 
   [[nodiscard]] int size() const { return static_cast<int>(parameters.size()); }
+  [[nodiscard]] const Variable& variable(Eigen::Index k) const { return variables[static_cast<std::size_t>(k)]; }
+  [[nodiscard]] Eigen::VectorXd values(const Eigen::VectorXd& z) const;
+  [[nodiscard]] Eigen::VectorXd z(const Eigen::VectorXd& values) const;
+  [[nodiscard]] Eigen::VectorXd slopes(const Eigen::VectorXd& z) const;  ///< d value / d z of each
 };
-
-[[nodiscard]] LeastSquares make_least_squares(const FitProblem& problem);
-[[nodiscard]] Eigen::VectorXd to_values(const LeastSquares& problem, const Eigen::VectorXd& z);
-[[nodiscard]] Eigen::VectorXd to_z(const LeastSquares& problem, const Eigen::VectorXd& values);
 
 /// rho, rho' and rho'' of a loss at a squared standardised residual (rho = s without a loss).
 struct Rho {

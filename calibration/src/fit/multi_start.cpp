@@ -22,12 +22,12 @@ std::vector<Eigen::VectorXd> latin_hypercube(const LeastSquares& problem, int co
     for (std::size_t i = stratum.size(); i > 1; --i) {
       std::swap(stratum[i - 1], stratum[static_cast<std::size_t>(uniform(generator) * static_cast<double>(i))]);
     }
-    const Variable& v = problem.variables[static_cast<std::size_t>(k)];
-    const double lower = to_z(v, v.lower);
-    const double upper = to_z(v, v.upper);
+    const Variable& v = problem.variable(k);
+    const double lower = v.lower();
+    const double upper = v.upper();
     for (std::size_t i = 0; i < points.size(); ++i) {
       const double fraction = (static_cast<double>(stratum[i]) + uniform(generator)) / static_cast<double>(count);
-      points[i][k] = to_value(v, lower + fraction * (upper - lower));
+      points[i][k] = v.value(lower + fraction * (upper - lower));
     }
   }
   return points;
@@ -37,7 +37,7 @@ std::vector<Eigen::VectorXd> latin_hypercube(const LeastSquares& problem, int co
 Eigen::VectorXd admissible(const LeastSquares& problem, const Eigen::VectorXd& given, Eigen::VectorXd point) {
   for (int halving = 0; halving < 10; ++halving) {
     if (evaluate(problem, point, false).ok()) break;
-    point = to_values(problem, 0.5 * (to_z(problem, point) + to_z(problem, given)));
+    point = problem.values(0.5 * (problem.z(point) + problem.z(given)));
   }
   return point;
 }
@@ -77,7 +77,7 @@ bool same_minimum(const LeastSquares& problem, const Minimum& a, const Minimum& 
   const double high = std::max(a.cost, b.cost);
   if (high - std::min(a.cost, b.cost) > 0.01 + 1e-6 * high) return false;
   for (const double x : {0.25, 0.5, 0.75}) {
-    const Evaluation e = evaluate(problem, to_values(problem, a.z + x * (b.z - a.z)), false);
+    const Evaluation e = evaluate(problem, problem.values(a.z + x * (b.z - a.z)), false);
     if (!e.ok() || cost(problem, e) > high + 0.01 + 1e-6 * high) return false;
   }
   return true;

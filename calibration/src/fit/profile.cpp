@@ -30,7 +30,7 @@ class Profiler {
   /// The others refitted at z, from those of the neighbour; nothing where there is no prediction or no convergence.
   [[nodiscard]] std::optional<ProfilePoint> at(double z, const ProfilePoint& neighbour) {
     Eigen::VectorXd start = neighbour.fit.values;
-    start[parameter_] = to_value(problem_.variables[static_cast<std::size_t>(parameter_)], z);
+    start[parameter_] = problem_.variable(parameter_).value(z);
     ProfilePoint out{z, 0.0, minimise(problem_, start, run_)};
     if (!out.fit.ok() || !out.fit.converged) {
       failure = out.fit.message;
@@ -125,18 +125,18 @@ Side walk(Profiler& profiler, double bound, double step, int count, double thres
 }  // namespace
 
 ProfileResult profile(const LeastSquares& problem, const Minimum& minimum, int parameter, const FitOptions& options) {
-  const Variable& v = problem.variables[static_cast<std::size_t>(parameter)];
+  const Variable& v = problem.variable(parameter);
   const Linearised lin = linearise(problem, minimum);
   const Certainty c = certainty(problem, lin, {});
   const double z = minimum.z[parameter];
-  double error = to_z(v, v.upper) - to_z(v, v.lower);  // where there is none: the range
+  double error = v.upper() - v.lower();  // where there is none: the range
   double quantile = t_quantile(options.confidence, region_freedom(c));
   double ratio = 1.0;
   for (std::size_t j = 0; j < lin.free.size(); ++j) {
     if (lin.free[j] != parameter) continue;
     const Eigen::Index k = static_cast<Eigen::Index>(j);
     if (c.covariance(k, k) <= 0.0) continue;
-    error = std::min(error, std::sqrt(c.covariance(k, k)) * lin.size[parameter] / slope(v, z));
+    error = std::min(error, std::sqrt(c.covariance(k, k)) * lin.size[parameter] / v.slope(z));
     ratio = c.covariance(k, k) / c.inverse(k, k);
     quantile = t_quantile(options.confidence, freedom(c, Eigen::VectorXd::Unit(c.covariance.rows(), k)));
   }
@@ -146,23 +146,23 @@ ProfileResult profile(const LeastSquares& problem, const Minimum& minimum, int p
   const int count = std::max(2, (options.profile_points - 1) / 2);
   const double step = std::max(4.0, 1.3 * quantile) * error / static_cast<double>(count);
   Profiler profiler(problem, minimum, parameter, options);
-  const Side below = walk(profiler, to_z(v, v.lower), step, count, out.profile.threshold);
-  const Side above = walk(profiler, to_z(v, v.upper), step, count, out.profile.threshold);
+  const Side below = walk(profiler, v.lower(), step, count, out.profile.threshold);
+  const Side above = walk(profiler, v.upper(), step, count, out.profile.threshold);
   std::vector<ProfilePoint> points(below.points.rbegin(), below.points.rend());
   points.push_back(profiler.best());
   points.insert(points.end(), above.points.begin(), above.points.end());
   out.profile.values.resize(static_cast<Eigen::Index>(points.size()));
   out.profile.excess.resize(static_cast<Eigen::Index>(points.size()));
   for (std::size_t k = 0; k < points.size(); ++k) {
-    out.profile.values[static_cast<Eigen::Index>(k)] = to_value(v, points[k].z);
+    out.profile.values[static_cast<Eigen::Index>(k)] = v.value(points[k].z);
     out.profile.excess[static_cast<Eigen::Index>(k)] = points[k].excess;
   }
-  if (below.crossing) out.profile.lower = to_value(v, *below.crossing);
-  if (above.crossing) out.profile.upper = to_value(v, *above.crossing);
+  if (below.crossing) out.profile.lower = v.value(*below.crossing);
+  if (above.crossing) out.profile.upper = v.value(*above.crossing);
   const FitParameter& p = problem.parameters[static_cast<std::size_t>(parameter)];
   for (const Side* side : {&below, &above}) {
     if (side->warning.empty() || side->crossing) continue;
-    const double end = side->points.empty() ? minimum.values[parameter] : to_value(v, side->points.back().z);
+    const double end = side->points.empty() ? minimum.values[parameter] : v.value(side->points.back().z);
     out.warning += (out.warning.empty() ? "the profile of " : "; the profile of ") + p.name + " ends at " +
                    with_unit(end, p.unit) + " before its interval does: " + side->warning;
   }

@@ -22,16 +22,14 @@ class CachedPrediction {
   bool at(const Eigen::VectorXd& z) {
     if (z.size() == z_.size() && z == z_) return prediction.ok();
     z_ = z;
-    prediction = predict(set_, to_values(problem_, z), true);
+    prediction = predict(set_, problem_.values(z), true);
     if (!prediction.ok()) {
       failure = set_.name + ": " + prediction.failure;
       return false;
     }
     residuals = standardised(set_, prediction);
     jacobian = standardised_jacobian(set_, prediction);
-    for (Eigen::Index k = 0; k < z.size(); ++k) {
-      jacobian.col(k) *= slope(problem_.variables[static_cast<std::size_t>(k)], z[k]);
-    }
+    for (Eigen::Index k = 0; k < z.size(); ++k) jacobian.col(k) *= problem_.variable(k).slope(z[k]);
     return true;
   }
 
@@ -127,8 +125,8 @@ ceres::Solver::Summary solve(const LeastSquares& problem, const SolverRun& run, 
   }
   for (std::size_t k = 0; k < blocks.size(); ++k) {
     const Variable& v = problem.variables[k];
-    ceres_problem.SetParameterLowerBound(blocks[k], 0, to_z(v, v.lower));
-    ceres_problem.SetParameterUpperBound(blocks[k], 0, to_z(v, v.upper));
+    ceres_problem.SetParameterLowerBound(blocks[k], 0, v.lower());
+    ceres_problem.SetParameterUpperBound(blocks[k], 0, v.upper());
     if (held[k]) ceres_problem.SetParameterBlockConstant(blocks[k]);
   }
   ceres::Solver::Options options;
@@ -152,15 +150,6 @@ ceres::Solver::Summary solve(const LeastSquares& problem, const SolverRun& run, 
   return summary;
 }
 
-/// -1 or 1 at the lower or upper bound, else 0.
-int side(const Variable& v, double z) {
-  const double lower = to_z(v, v.lower);
-  const double upper = to_z(v, v.upper);
-  const double close = 1e-10 * (upper - lower);
-  if (z <= lower + close) return -1;
-  return z >= upper - close ? 1 : 0;
-}
-
 /// Twice the gain in cost that a Gauss-Newton step of the parameters that may move still promises.
 double newton_decrement(const LeastSquares& problem, const Minimum& m, const std::vector<bool>& held) {
   const Stack stack = gauss_newton_stack(problem, m.values, m.evaluation);
@@ -174,7 +163,7 @@ double newton_decrement(const LeastSquares& problem, const Minimum& m, const std
 
 /// Prediction, cost and gradient at m.z; false when there is no prediction.
 bool look(const LeastSquares& problem, const Caches& caches, Minimum& m) {
-  m.values = to_values(problem, m.z);
+  m.values = problem.values(m.z);
   m.evaluation = {};
   for (const auto& cache : caches) {
     if (!cache->at(m.z)) {
@@ -205,7 +194,7 @@ Minimum minimise(const LeastSquares& problem, const Eigen::VectorXd& start, cons
   fixed.resize(n, false);
   std::vector<bool> held = fixed;
   Minimum m;
-  m.z = to_z(problem, start);
+  m.z = problem.z(start);
   m.bound.assign(n, 0);
   Caches caches;
   for (const RowSet& set : problem.sets) caches.push_back(std::make_unique<CachedPrediction>(problem, set));
@@ -222,7 +211,7 @@ Minimum minimise(const LeastSquares& problem, const Eigen::VectorXd& start, cons
     bool changed = false;
     for (std::size_t k = 0; k < n; ++k) {
       if (fixed[k]) continue;
-      const int at = side(problem.variables[k], m.z[static_cast<Eigen::Index>(k)]);
+      const int at = problem.variables[k].side(m.z[static_cast<Eigen::Index>(k)]);
       const bool hold = at != 0 && m.gradient[static_cast<Eigen::Index>(k)] * at < 0.0;
       changed = changed || hold != held[k];
       held[k] = hold;
@@ -230,7 +219,7 @@ Minimum minimise(const LeastSquares& problem, const Eigen::VectorXd& start, cons
     if (!changed) break;
   }
   for (std::size_t k = 0; k < n; ++k) {
-    m.bound[k] = fixed[k] ? 2 : side(problem.variables[k], m.z[static_cast<Eigen::Index>(k)]);
+    m.bound[k] = fixed[k] ? 2 : problem.variables[k].side(m.z[static_cast<Eigen::Index>(k)]);
   }
   if (last.termination_type == ceres::NO_CONVERGENCE) {
     m.message = "the limit of " + std::to_string(run.max_iterations) + " iterations was reached";

@@ -146,18 +146,11 @@ void judge_order(const RowSet& set, const DataSetResult& r, FitResult& result) {
 
 }  // namespace
 
-double reference_size(const LeastSquares& problem, int parameter, double value) {
-  const Variable& v = problem.variables[static_cast<std::size_t>(parameter)];
-  if (v.logarithmic) return value;
-  const double range = v.upper - v.lower;
-  return std::clamp(std::abs(value), 0.1 * range, range);
-}
-
 Linearised linearise(const LeastSquares& problem, const Minimum& m) {
   Linearised out;
   out.size.resize(problem.size());
   for (int k = 0; k < problem.size(); ++k) {
-    out.size[k] = reference_size(problem, k, m.values[k]);
+    out.size[k] = problem.variable(k).size(m.values[k]);
     if (m.bound[static_cast<std::size_t>(k)] == 0) out.free.push_back(k);
   }
   for (std::size_t k = 0; k < problem.sets.size(); ++k) {

@@ -15,17 +15,13 @@ inline constexpr double negligible = 1e-9;
 /// parameter free[j] over size[j].
 struct Linearised {
   std::vector<int> free;                  ///< parameters that are not at a bound
-  Eigen::VectorXd size;                   ///< of all parameters
+  Eigen::VectorXd size;                   ///< of all parameters, see Variable::size()
   std::vector<Eigen::VectorXd> residual;  ///< per row set, over the current deviations
   std::vector<Eigen::MatrixXd> jacobian;  ///< per row set: of the residuals, all parameters
   Eigen::VectorXd redundancy;             ///< per row set: expectation of the sum of squared residuals
 };
 
 [[nodiscard]] Linearised linearise(const LeastSquares& problem, const Minimum& m);
-
-/// The size that relative changes of a parameter refer to: its value; with a linear variable at least a tenth and at
-/// most the whole of the range between the bounds.
-[[nodiscard]] double reference_size(const LeastSquares& problem, int parameter, double value);
 
 /// The factors that the residuals at the minimum suggest for the data sets with `estimated`. Sets with fewer than one
 /// degree of freedom left lose `estimated` and get the factor 1.
