@@ -17,6 +17,7 @@ using Jet = ceres::Jet<double, parameter_count>;
   BasicParameters<Jet> out;
   out.density = Jet(p.density);
   out.rve_length = Jet(p.rve_length);
+  out.choices = p.choices;
   for (int k = 0; k < parameter_count; ++k) {
     const auto row = static_cast<std::size_t>(k);
     out.*calibrated_parameters<Jet>[row].member = Jet(p.*parameter_info[row].member, k);

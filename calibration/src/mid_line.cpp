@@ -29,6 +29,7 @@ BasicParameters<Slope> seeded_inputs(const Parameters& p) {
   s.friction_angle_deg = p.friction_angle_deg;
   s.dilation_angle_deg = p.dilation_angle_deg;
   s.shear_stiffness = p.shear_stiffness;
+  s.choices = p.choices;
   return s;
 }
 

@@ -48,6 +48,10 @@ class Reader {
     if (!known) throw InputError(path(key) + ": \"" + word + "\" is none of " + all_words<E>());
     x = *known;
   }
+  template <Worded E>
+  void choice(std::string_view key, E& x) const {
+    if (object_.contains(key)) (*this)(key, x);
+  }
   /// A vector, or a matrix written row by row.
   template <class Derived>
   void operator()(std::string_view key, Eigen::PlainObjectBase<Derived>& m) const {

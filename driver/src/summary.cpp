@@ -1,6 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include "fpz/driver/run.hpp"
+#include "fpz/io/material_file.hpp"
 #include "fpz/io/output.hpp"
 
 namespace fpz::driver {
@@ -11,6 +12,7 @@ using Json = nlohmann::ordered_json;
 Json material_json(const Test& test) {
   Json j = {{"name", test.material_name}};
   for (const ParameterInfo<double>& p : parameter_table<double>) j[std::string(p.name)] = test.parameters.*p.member;
+  io::put_choices(j, test.parameters.choices);
   j["snap_back_length_mode1"] = snap_back_length(test.parameters, test.setting);
   return j;
 }

@@ -14,6 +14,8 @@ constexpr std::array<std::string_view, 4> text_keys = {"name", "source", "units"
 std::vector<std::string_view> all_keys() {
   std::vector<std::string_view> keys;
   for (const ParameterInfo<double>& key : material_keys) keys.push_back(key.name);
+  const MaterialChoices defaults;
+  visit_choices(defaults, [&keys](const char* key, auto) { keys.emplace_back(key); });
   keys.insert(keys.end(), text_keys.begin(), text_keys.end());
   return keys;
 }
@@ -30,6 +32,17 @@ void check_texts(const InputReader& reader, const Place& place) {
     if (expected != nullptr) {
       reader.problem(Place(place, member), "expected " + std::string(expected) + ", found " + member.description());
     }
+  }
+}
+
+template <Worded E>
+void read_choice(const InputReader& reader, const Place& at, E& choice) {
+  const std::optional<std::string> word = reader.text(at, longest_name);
+  if (!word) return;
+  if (const std::optional<E> known = from_word<E>(*word)) {
+    choice = *known;
+  } else {
+    reader.problem(at, in_quotes(*word) + " is not known; it must be " + all_words<E>());
   }
 }
 
@@ -56,6 +69,10 @@ std::optional<MaterialFile> read_material(const InputReader& reader, const Place
     material.parameters.*material_keys[k].member = *x;
     material.locations[k] = {reader.file(), value->line, Place(place, *value).path()};
   }
+  visit_choices(material.parameters.choices, [&](const char* key, auto& choice) {
+    const JsonValue* word = place.value().find(key);
+    if (word != nullptr) read_choice(reader, Place(place, *word), choice);
+  });
   const JsonValue* given = place.value().find("name");
   if (given != nullptr && given->is(Kind::string)) {
     if (const auto text = reader.text(Place(place, *given), longest_name)) material.name = *text;

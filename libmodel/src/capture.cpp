@@ -50,6 +50,11 @@ class Writer {
     entry(key, list + "]");
   }
 
+  template <Worded E>
+  void choice(std::string_view key, E x) {
+    if (x != E{}) (*this)(key, x);
+  }
+
  private:
   template <class F>
   void braces(const F& body) {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "fpz/law/softening.hpp"
+
 namespace fpz {
 namespace {
 
@@ -67,7 +69,7 @@ std::string Validation::report() const {
 }
 
 double snap_back_length(const Parameters& p, Setting setting) {
-  return normal_modulus(p, setting) * p.delta0 / p.tensile_strength;
+  return normal_modulus(p, setting) * Softening<double>::make(p).shortest_length() / p.tensile_strength;
 }
 
 double uniaxial_tensile_strength(const Parameters& p) {
@@ -123,8 +125,10 @@ Validation validate(const Parameters& p, Setting setting) {
     const double bound = snap_back_length(p, setting);
     if (p.rve_length >= bound) {
       const char* modulus = setting == Setting::plane_stress ? "E/(1 - nu^2)" : "(lambda + 2 mu)";
+      const double lengths = Softening<double>::make(p).shortest_length() / p.delta0;
+      const std::string length = lengths == 1.0 ? "delta0" : rounded(lengths) + " delta0";
       check.warn("rve_length", p.rve_length,
-                 "should be < " + std::string(modulus) + " * delta0 / tensile_strength = " + rounded(bound) +
+                 "should be < " + std::string(modulus) + " * " + length + " / tensile_strength = " + rounded(bound) +
                      ": mode I snaps back under strain control");
     }
   }

@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "blocks.hpp"
+#include "fpz/law/softening.hpp"
 #include "fpz/parameters.hpp"
 #ifdef FPZ_DOCS_DRIVER
 #include "fpz/driver/history.hpp"
@@ -39,6 +40,10 @@ std::string parameters() {
   for (const ParameterInfo<double>& p : parameter_table<double>) {
     table += row({code(p.name), std::string(p.symbol), std::string(p.unit), p.bounds.text()});
   }
+  const MaterialChoices choices;
+  visit_choices(choices, [&table](const char* key, auto choice) {
+    table += row({code(key), "", "", all_words<decltype(choice)>() + "; may be left out: " + to_string(choice)});
+  });
   return table;
 }
 

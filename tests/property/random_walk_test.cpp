@@ -23,12 +23,18 @@ struct Scenario {
 
 std::vector<Scenario> setups(bool three_d) {
   std::vector<Scenario> all;
-  const auto add = [&](const std::string& name, const Parameters& p, bool safe) {
+  const auto add_one = [&](const std::string& name, const Parameters& p, bool safe) {
     if (three_d) {
       all.push_back({name + " 3d", p, Setting::three_d, safe});
     } else {
       all.push_back({name + " plane strain", p, Setting::plane_strain, safe});
       all.push_back({name + " plane stress", p, Setting::plane_stress, safe});
+    }
+  };
+  const auto add = [&](const std::string& name, Parameters p, bool safe) {
+    for (const Word<SofteningKind>& softening : Words<SofteningKind>::list) {
+      p.choices.softening = softening.value;
+      add_one(name + ", " + softening.text, p, safe);
     }
   };
   add("table 1, 0.5 mm", table1(0.5e-3), true);
@@ -65,6 +71,11 @@ double walk_scale(const Parameters& p) {
   return 1.5 * (p.tensile_strength / p.young_modulus + p.delta0 / p.rve_length);
 }
 
+/// Whether the softening law reaches w = 0.
+bool softening_ends(const Material<double>& m) {
+  return m.law.softening.piece_end(m.law.softening.piece(1e-300)) >= 0.0;
+}
+
 template <int Dim>
 void expect_sound(const Material<double>& m, const State<double, Dim>& s, const State<double, Dim>& before) {
   ASSERT_TRUE(s.stress.allFinite() && s.crack.plastic_jump.allFinite() && std::isfinite(s.crack.integrity));
@@ -91,9 +102,10 @@ void expect_sound(const Material<double>& m, const State<double, Dim>& s, const 
             before.crack.dissipated - 1e-14 * m.law.surface.tensile_strength * m.law.softening.length());
   // eq 47: D follows from the inelastic jump; up_n falls never (dilation).
   ASSERT_GE(s.crack.plastic_jump[0], before.crack.plastic_jump[0] - 1e-14 * m.law.softening.length());
-  const double w = std::exp(-(s.crack.plastic_jump[0] + s.crack.slip) / m.law.softening.length());
-  // In `accurate` D is integrated and up_n follows from continuity: they agree to its tolerance (1e-6 here).
-  ASSERT_NEAR(s.crack.integrity, w, 1e-6 * w);
+  const double w = m.law.softening.after(1.0, s.crack.plastic_jump[0] + s.crack.slip);
+  // In `accurate` D is integrated and up_n follows from continuity: they agree to its tolerance (1e-6 here), which for
+  // a law that ends is one of D itself.
+  ASSERT_NEAR(s.crack.integrity, w, softening_ends(m) ? 1e-6 : 1e-6 * w);
 }
 
 template <int Dim>
@@ -182,7 +194,8 @@ void against_reference() {
     for (std::size_t k = 0; k < walk.size(); ++k) {
       SCOPED_TRACE("step " + std::to_string(k));
       ASSERT_EQ(update<Dim>(m, o, s, walk[k], s).status, Status::ok);
-      if (s.crack.integrity < 1e-5) break;  // the reference works with unscaled tractions and loses digits there
+      // The reference works with unscaled tractions and loses digits where little is left.
+      if (s.crack.integrity < 1e-5 || (s.crack.integrity < 0.02 && softening_ends(m))) break;
       ASSERT_NO_THROW(reference.advance(to_matrix3<Dim>(walk[k]), normal_of(s)));
       const Matrix3 difference = reference.stress() - to_matrix3<Dim>(s.stress);
       ASSERT_LE((difference.topLeftCorner<Dim, Dim>().cwiseAbs().maxCoeff()),

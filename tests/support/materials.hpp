@@ -22,6 +22,13 @@ inline Parameters table1(double rve_length = 4e-3) {
   return p;
 }
 
+/// Table 1 with another softening law.
+inline Parameters table1_with(SofteningKind softening, double rve_length = 4e-3) {
+  Parameters p = table1(rve_length);
+  p.choices.softening = softening;
+  return p;
+}
+
 /// Table 2, concrete of the three-point bending test; cracks on an inclined plane in uniaxial tension.
 inline Parameters table2(double rve_length = 1e-3) {
   Parameters p;

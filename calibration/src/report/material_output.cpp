@@ -61,6 +61,7 @@ std::string material_json(const Calibration& all) {
     j["notes"] = "NOT USABLE: " + all.result.message;
   }
   for (const auto& key : io::material_keys) j[std::string(key.name)] = all.parameters.*key.member;
+  io::put_choices(j, all.parameters.choices);
   j["provenance"] = {{"program", "fpz-calibrate"},
                      {"version", FPZ_VERSION},
                      {"specification", spec.file.filename().string()},

@@ -61,6 +61,7 @@ class ParameterReader {
     has_base_ = true;
     if (!base) return;
     base_name_ = base->name;
+    spec_.choices = base->parameters.choices;
     for (std::size_t k = 0; k < io::material_keys.size(); ++k) {
       const std::string_view name = io::material_keys[k].name;
       const double x = base->parameters.*io::material_keys[k].member;

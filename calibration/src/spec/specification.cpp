@@ -230,6 +230,7 @@ class SpecificationReader {
 Parameters Specification::start() const {
   Parameters p;
   p.density = density;
+  p.choices = choices;
   for (std::size_t k = 0; k < parameter_info.size(); ++k) p.*parameter_info[k].member = parameters[k].value;
   return p;
 }

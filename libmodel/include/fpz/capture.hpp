@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "fpz/law/softening.hpp"
 #include "fpz/options.hpp"
 #include "fpz/parameters.hpp"
 #include "fpz/state_fields.hpp"
@@ -22,7 +23,8 @@ struct Capture {
 
 /// The layout of a capture file, for the writer and for readers. C is Capture<Dim>, const or not. The archive offers
 /// `archive(key, member)` for numbers, vectors and matrices (row by row), flags and words, and
-/// `archive.object(key, f)`, which calls `f` with the archive of an object inside.
+/// `archive.object(key, f)`, which calls `f` with the archive of an object inside, and `archive.choice(key, word)` for
+/// words that are left out where they are the default.
 template <class Archive, class C>
 void visit_capture(Archive& archive, C& c) {
   archive("setting", c.setting);
@@ -30,6 +32,7 @@ void visit_capture(Archive& archive, C& c) {
     for (const ParameterInfo<double>& p : parameter_table<double>) {
       if (p.of_material) material(p.name, c.parameters.*p.member);
     }
+    visit_choices(c.parameters.choices, [&material](const char* key, auto& x) { material.choice(key, x); });
   });
   for (const ParameterInfo<double>& p : parameter_table<double>) {
     if (!p.of_material) archive(p.name, c.parameters.*p.member);

@@ -14,8 +14,18 @@ namespace fpz {
 /// Which softening law a material has: a value of the list in law/softening.hpp, the default first.
 enum class SofteningKind : std::uint8_t {};
 
-/// The eleven numbers of the model (Tables 1-3 of the paper) and the choice of its softening. SI units, angles in
-/// degrees.
+/// What a material chooses besides its numbers. Files may leave a choice out: it is the default then.
+struct MaterialChoices {
+  SofteningKind softening{};
+};
+
+/// Calls f(key, choice) for every choice; all are enumerations with words (words.hpp, law/softening.hpp).
+template <class Choices, class F>
+void visit_choices(Choices& c, F&& f) {
+  f("softening", c.softening);
+}
+
+/// The eleven numbers of the model (Tables 1-3 of the paper) and its choices. SI units, angles in degrees.
 template <class T>
 struct BasicParameters {
   T young_modulus{};       ///< E, Pa
@@ -29,7 +39,7 @@ struct BasicParameters {
   T normal_stiffness{};    ///< Kn, Pa/m
   T shear_stiffness{};     ///< Ks, Pa/m
   T rve_length{};          ///< H, m
-  SofteningKind softening{};
+  MaterialChoices choices{};
 };
 using Parameters = BasicParameters<double>;
 
@@ -110,8 +120,9 @@ struct Validation {
 /// = 0 (pure opening has no solution), uniaxial tensile strength below sigma_t0 (3.4).
 [[nodiscard]] Validation validate(const Parameters& p, Setting setting);
 
-/// Largest H without snap-back under strain control in mode I: (lambda + 2 mu) delta0 / sigma_t0, with the plane-stress
-/// modulus E/(1 - nu^2) in place of lambda + 2 mu where that applies. Metres.
+/// Largest H without snap-back under strain control in mode I: (lambda + 2 mu) l / sigma_t0 with 1/l the steepest slope
+/// of the softening law (l = delta0 for the exponential one), and the plane-stress modulus E/(1 - nu^2) in place of
+/// lambda + 2 mu where that applies. Metres.
 [[nodiscard]] double snap_back_length(const Parameters& p, Setting setting);
 
 /// The stress at which uniaxial tension cracks: sigma_t0, or less when the critical plane is inclined

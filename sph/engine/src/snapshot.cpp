@@ -39,6 +39,7 @@ std::uint64_t fingerprint(const RunSetup<Dim>& s) {
   for (const auto& p : parameter_table<double>) {
     if (p.of_material) w(s.parameters.*p.member);
   }
+  visit_choices(s.parameters.choices, [&w](const char*, auto choice) { w(choice); });
   w(s.arrangement.spacing);
   w(s.arrangement.position);
   w(s.arrangement.volume);

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "fpz/parameters.hpp"
+#include "fpz/io/material_file.hpp"
 #include "fpz/sph/option_table.hpp"
 
 namespace fpz::specimen {
@@ -70,6 +70,7 @@ Json material_json(const Scene& scene) {
   for (const auto& p : parameter_table<double>) {
     if (p.of_material) j[std::string(p.name)] = scene.parameters.*p.member;
   }
+  io::put_choices(j, scene.parameters.choices);
   return j;
 }
 

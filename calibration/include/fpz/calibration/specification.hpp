@@ -41,6 +41,7 @@ struct Specification {
   Setting setting = Setting::plane_strain;
   std::string material_name;                                 ///< of the result
   double density = 0.0;                                      ///< kg/m^3
+  MaterialChoices choices;                                   ///< of the base material
   std::array<ParameterSetting, parameter_count> parameters;  ///< in the order of Parameter
   std::vector<DataSet> data;
   std::vector<ReferenceValue> references;

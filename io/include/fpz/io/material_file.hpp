@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "fpz/io/input_reader.hpp"
+#include "fpz/law/softening.hpp"
 #include "fpz/parameters.hpp"
 
 namespace fpz::io {
@@ -49,5 +50,13 @@ std::vector<std::string> check_material(const MaterialFile& material, const Para
 /// Reads and validates a material file (keys as in data/materials). `rve_length` is left at 0. Without a key "name" the
 /// name is that of the file.
 [[nodiscard]] Parameters read_material_file(const std::filesystem::path& file, std::string* name = nullptr);
+
+/// Adds the choices of a material that are not the default to a JSON object.
+template <class Json>
+void put_choices(Json& j, const MaterialChoices& choices) {
+  visit_choices(choices, [&j](const char* key, auto choice) {
+    if (choice != decltype(choice){}) j[key] = to_string(choice);
+  });
+}
 
 }  // namespace fpz::io

@@ -78,15 +78,15 @@ void paper_return(const Law& law, CohesiveState<T, Dim>& z, const Vec<T, Dim>& d
 }
 
 /// Whether a return ended where it should: on its yield surface to 1 % of sigma_t0 if it yielded, not outside if it did
-/// not, with an integrity in (0, 1] that did not grow. The printed algorithm checks none of these, and can end far from
-/// the surface or on the spurious branch of eq 48.
+/// not, with finite numbers and an integrity in (0, 1] that did not grow. The printed algorithm checks none of these,
+/// and can end far from the surface or on the spurious branch of eq 48.
 template <class T, int Dim, class Law>
 [[nodiscard]] bool paper_result_is_sound(const Law& law, const CohesiveState<T, Dim>& begin,
                                          const CohesiveState<T, Dim>& z) {
   double ts2 = 0.0;
   for (int k = 1; k < Dim; ++k) ts2 += value(z.traction[k]) * value(z.traction[k]);
   const double w = value(z.integrity);
-  if (!(w > 0.0 && w <= value(begin.integrity))) return false;
+  if (!(w > 0.0 && w <= value(begin.integrity)) || !is_finite(z)) return false;
   const double f = law.surface.values().value_at(value(z.traction[0]), ts2, w);
   const double band = 0.01 * value(law.surface.tensile_strength);
   return f <= band && (w == value(begin.integrity) || f >= -band);

@@ -122,7 +122,7 @@ struct Softening {
   template <std::size_t I = 0>
   [[nodiscard]] static Softening make_from(const BasicParameters<P>& p) {
     if constexpr (I + 1 < std::variant_size_v<SofteningLaws<P>>) {
-      if (p.softening != static_cast<SofteningKind>(I)) return make_from<I + 1>(p);
+      if (p.choices.softening != static_cast<SofteningKind>(I)) return make_from<I + 1>(p);
     }
     return {std::variant_alternative_t<I, SofteningLaws<P>>::make(p)};
   }
