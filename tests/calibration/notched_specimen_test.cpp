@@ -142,6 +142,29 @@ TEST(NotchedSpecimen, TractionsBalanceTheLoad) {
   }
 }
 
+/// Petersson's two lines on the mid-line, and their fracture energy when the ligament is separated.
+TEST(NotchedSpecimen, BilinearSoftening) {
+  Parameters p = concrete();
+  p.choices.softening = softening_kind<BilinearSoftening>;
+  const Condensation body = condense(beam(), p.poisson_ratio);
+  MidLine path(body, p, {}, false);
+  int on_second_line = 0;
+  for (const double cmod : {10e-6, 40e-6, 100e-6, 3e-4}) {
+    ASSERT_EQ(path.advance(cmod), "");
+    for (Eigen::Index k = 0; k < path.jump().size(); ++k) {
+      const double x = path.jump()[k] / p.delta0;
+      if (x <= 0.0) continue;
+      const double w = x < 0.8 ? 1.0 - x / 1.2 : std::max(3.6 - x, 0.0) / 8.4;
+      EXPECT_NEAR(path.traction()[k], p.tensile_strength * w, 1e-7 * p.tensile_strength) << x;
+      on_second_line += x > 0.8 && x < 3.6;
+    }
+  }
+  EXPECT_GT(on_second_line, 5);
+  ASSERT_EQ(path.advance(2e-3), "");
+  const double whole = beam().ligament() * beam().thickness * p.tensile_strength * p.delta0;
+  EXPECT_NEAR(path.fracture_work() / whole, 1.0, 0.03);  // the last few nodes stay in compression
+}
+
 double peak_load(const NotchedSpecimen& s, const Parameters& p) {
   const FractureCurve c = fracture_curve(s, p, 0.98, 0.1);
   EXPECT_EQ(c.failure, "");

@@ -8,6 +8,7 @@
 #include "fpz/io/csv.hpp"
 #include "fpz/io/material_file.hpp"
 #include "fpz/io/output.hpp"
+#include "fpz/law/softening.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fpz::calibration {
@@ -46,6 +47,23 @@ TEST(Report, MaterialIsReadByTheDriversReader) {
   EXPECT_DOUBLE_EQ(provenance.at("fixed").at("delta0").at("value").get<double>(), 15e-6);
   EXPECT_EQ(provenance.at("data").at(0).at("name"), "strengths");
   EXPECT_EQ(test::text_of(folder.path() / "material.json").find(FPZ_DATA_DIR), std::string::npos);
+}
+
+/// The softening law of the base material is that of the models and of the result.
+TEST(Report, SofteningIsThatOfTheMaterial) {
+  const test::TemporaryFolder folder;
+  std::string material = test::text_of(FPZ_DATA_DIR "/materials/johnstone.json");
+  material.insert(material.find('{') + 1, "\"softening\": \"bilinear\", ");
+  const Calibration c =
+      calibrate(parse_specification(R"({"material": )" + material + R"(, "fit": ["delta0"], "options": {"starts": 1},
+          "data": [{"name": "G1", "kind": "fracture_energy", "mode": "I", "energy": 12.0, "deviation": 0.5}]})",
+                                    FPZ_DATA_DIR "/calibration/bilinear.json"));
+  ASSERT_TRUE(c.result.usable()) << c.result.message;
+  // One meaning of delta0 for all laws.
+  EXPECT_NEAR(c.parameters.delta0, 12.0 / c.parameters.tensile_strength, 1e-4 * c.parameters.delta0);
+  write_report(c, {folder.path(), false, false, {}});
+  EXPECT_EQ(io::read_material_file(folder.path() / "material.json").choices.softening,
+            softening_kind<BilinearSoftening>);
 }
 
 TEST(Report, JsonIsComplete) {

@@ -26,6 +26,44 @@ Comparison against_reference(const Result& result, double tolerance) {
                            io::read_csv(FPZ_DATA_DIR "/reference/four_stage.csv"), within(tolerance));
 }
 
+/// A softening law from the material of a path file, all the way to history and summary.
+TEST(Softening, IsChosenByTheMaterial) {
+  const auto path = [](const std::string& softening) {
+    return parse_path_file(
+               R"({"name": "opening", "rve_length": 1e-3, "setting": "plane_strain", "integrator": {"name": "accurate", "tolerance": 1e-8},
+      "material": {)" +
+                   softening +
+                   R"("young_modulus": 0.4e9, "poisson_ratio": 0.25, "density": 1540,
+        "tensile_strength": 0.6e6, "cohesion": 1e6, "friction_angle_deg": 33, "dilation_angle_deg": 4, "delta0": 18e-6,
+        "normal_stiffness": 1e13, "shear_stiffness": 1e11},
+      "stages": [{"increments": 50, "strain": {"xx": 0.08}}]})",
+               "x.json")
+        .tests.at(0);
+  };
+  const Result bilinear = run_test(path(R"("softening": "bilinear", )"));
+  ASSERT_TRUE(bilinear.ok()) << bilinear.message;
+  for (const Row& r : bilinear.history) {  // Petersson's two lines
+    if (r.damage <= 0.0) continue;
+    const double x = r.jump[0] / 18e-6;
+    const double w = x < 0.8 ? 1.0 - x / 1.2 : std::max(3.6 - x, 0.0) / 8.4;
+    EXPECT_NEAR(r.damage, 1.0 - w, 1e-5) << x;
+  }
+  EXPECT_EQ(bilinear.history.back().damage, 1.0);
+  const Result exponential = run_test(path(""));
+  EXPECT_LT(exponential.history.back().damage, 1.0);
+  const auto material = [](const Result& r, const PathTest& test) {
+    return nlohmann::json::parse(to_json(test, r)).at("material");
+  };
+  EXPECT_EQ(material(bilinear, path(R"("softening": "bilinear", )")).at("softening"), "bilinear");
+  EXPECT_FALSE(material(exponential, path("")).contains("softening"));  // the default is not written
+  try {
+    (void)path(R"("softening": "linear", )");
+    FAIL() << "accepted";
+  } catch (const InputError& e) {
+    EXPECT_THAT(e.what(), HasSubstr("material.softening: \"linear\" is not known; it must be exponential or bilinear"));
+  }
+}
+
 TEST(FourStage, MatchesTheReference) {
   PathTest test = four_stages(1);
   for (Stage& s : test.stages) {  // rows at the reference's times: 200 a stage

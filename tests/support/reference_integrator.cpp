@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "fpz/law/softening.hpp"
+
 namespace fpz::test {
 namespace {
 
@@ -50,7 +52,17 @@ ReferenceIntegrator::ReferenceIntegrator(const Parameters& p, Setting setting, d
                                              : p.young_modulus * nu / ((1.0 + nu) * (1.0 - 2.0 * nu));
   tan_phi_ = std::tan(p.friction_angle_deg * pi / 180.0);
   tan_psi_ = std::tan(p.dilation_angle_deg * pi / 180.0);
+  const std::string softening = to_string(p.choices.softening);
+  bilinear_ = softening == "bilinear";
+  if (!bilinear_ && softening != "exponential") throw std::runtime_error("reference: no softening law " + softening);
 }
+
+double ReferenceIntegrator::fall(double w, int piece) const {
+  if (!bilinear_) return w / p_.delta0;  // eq 47
+  return piece == 0 ? (1.0 - 1.0 / 3.0) / (0.8 * p_.delta0) : 1.0 / 3.0 / ((3.6 - 0.8) * p_.delta0);
+}
+
+double ReferenceIntegrator::piece_end(int piece) const { return bilinear_ && piece == 0 ? 1.0 / 3.0 : -1.0; }
 
 Matrix3 ReferenceIntegrator::elastic_stress(const Matrix3& strain) const {
   return lambda_ * strain.trace() * Matrix3::Identity() + 2.0 * mu_ * strain;
@@ -196,7 +208,7 @@ ReferenceIntegrator::Derivatives ReferenceIntegrator::rates(const Y& y, const Mo
       -2.0 * p_.cohesion * tan_phi_ * (2.0 * s - t[0]) + 2.0 * tan_phi_ * tan_phi_ * p_.tensile_strength * s;
   double shear = std::hypot(g_t[1], g_t[2]);
   if (mode.shear_sign != 0.0) shear = mode.shear_sign * g_t[1];  // smooth through zero; the event ends the phase there
-  const double r = w / p_.delta0 * (g_t[0] + shear);             // eq 52
+  const double r = fall(w, mode.piece) * (g_t[0] + shear);       // eq 52
   const Vector3 pkg = pk.cwiseProduct(g_t);
   const double denominator = f_t.dot(pkg) - f_t.dot(t_d) * r + f_w * r;
   const Vector3 m = f_t.cwiseProduct(pk) / denominator;  // eq 65
@@ -269,6 +281,7 @@ double ReferenceIntegrator::elastic_exit(const Y& y, const Mode& mode) const {
 double ReferenceIntegrator::event(const Y& y, const Mode& mode, int which) const {
   if (which == 0) return rates(y, mode).multiplier;
   if (which == 1) return mode.tension ? y[0] : -y[0];
+  if (which == 3) return piece_end(mode.piece) < 0.0 ? 1.0 : y[10] - piece_end(mode.piece);
   return mode.shear_sign == 0.0 ? 1.0 : mode.shear_sign * y[1];
 }
 
@@ -280,6 +293,7 @@ ReferenceIntegrator::Mode ReferenceIntegrator::current_mode(const Y& y) const {
     const double s = std::abs(y[1]) > small ? y[1] : drive_[1];
     m.shear_sign = s < 0.0 ? -1.0 : 1.0;
   }
+  m.piece = y[10] > piece_end(0) ? 0 : 1;
   m.plastic = elastic_exit(y, m) == 0.0;
   return m;
 }
@@ -319,7 +333,7 @@ void ReferenceIntegrator::plastic_phase(double& x) {
     }
     double taken = h;
     int fired = -1;
-    for (int which = 0; which < 3; ++which) {
+    for (int which = 0; which < 4; ++which) {
       if (event(next, mode, which) >= 0.0) continue;
       double lo = 0.0;
       double hi = taken;
@@ -339,6 +353,10 @@ void ReferenceIntegrator::plastic_phase(double& x) {
     }
     if (fired == 1) mode.tension = !mode.tension;
     if (fired == 2) mode.shear_sign = -mode.shear_sign;
+    if (fired == 3) {
+      y[10] = piece_end(mode.piece);
+      ++mode.piece;
+    }
     h = taken * (fired < 0 ? std::min(4.0, 0.9 * std::pow(e + 1e-10, -0.2)) : 0.5);
     h = std::max(h, 1e-9);
   }

@@ -39,7 +39,8 @@ class ReferenceIntegrator {
   ReferenceIntegrator(const Parameters& p, Setting setting, double tolerance = 1e-12);
 
   /// Moves the strain straight by `dstrain`. `hint` steers the choice between conjugate planes.
-  /// Throws std::runtime_error where the rate problem has no unique solution.
+  /// Throws std::runtime_error where the rate problem has no unique solution. Works with unscaled tractions: not for a
+  /// crack that is separated but for rounding.
   void advance(const Matrix3& dstrain, const Vector3& hint);
 
   [[nodiscard]] const ReferenceState& state() const { return s_; }
@@ -56,6 +57,7 @@ class ReferenceIntegrator {
     bool plastic = false;
     bool tension = true;
     double shear_sign = 0.0;  ///< 2-D only: sign of the one shear traction
+    int piece = 0;            ///< of the softening curve
   };
   struct Derivatives {
     Y rate;
@@ -67,6 +69,9 @@ class ReferenceIntegrator {
   [[nodiscard]] Derivatives rates(const Y& y, const Mode& mode) const;
   [[nodiscard]] Y step(const Y& y, double h, const Mode& mode, Y* error) const;
   [[nodiscard]] double yield(const Vector3& t, double w) const;
+  /// -dw/d(kappa) on a piece of the softening curve, 1/m, and the w at which the piece ends (negative: never).
+  [[nodiscard]] double fall(double w, int piece) const;
+  [[nodiscard]] double piece_end(int piece) const;
   [[nodiscard]] double elastic_exit(const Y& y, const Mode& mode) const;
   [[nodiscard]] double event(const Y& y, const Mode& mode, int which) const;
   void open(const Matrix3& dstrain, const Vector3& hint, double& x);
@@ -80,6 +85,7 @@ class ReferenceIntegrator {
   Setting setting_;
   double tolerance_;
   double lambda_, mu_, tan_phi_, tan_psi_;
+  bool bilinear_;  ///< Petersson's softening; else the exponential one
   ReferenceState s_;
   bool unloading_ = false;           ///< the last phase ended where plastic loading did
   Vector3 drive_ = Vector3::Zero();  ///< local traction rate of the uncracked bulk, Pa per unit of the increment

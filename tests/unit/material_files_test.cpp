@@ -38,13 +38,14 @@ TEST_P(MaterialFile, IsCompleteAndAdmissible) {
   for (const char* key : {"name", "source", "units", "notes"}) {
     EXPECT_TRUE(j.contains(key) && j.at(key).is_string()) << key;
   }
-  EXPECT_EQ(j.size(), 14u) << "ten numbers and four strings";
+  EXPECT_EQ(j.size(), j.contains("softening") ? 15u : 14u) << "ten numbers, four strings, and a choice";
   const fpz::Validation v = validate(parameters(j), fpz::Setting::plane_strain);
   EXPECT_TRUE(v.ok()) << v.report();
 }
 
 INSTANTIATE_TEST_SUITE_P(Data, MaterialFile,
-                         ::testing::Values("johnstone.json", "bellego.json", "marble.json", "bellego_mode1.json"),
+                         ::testing::Values("johnstone.json", "bellego.json", "marble.json", "bellego_mode1.json",
+                                           "bellego_mode1_bilinear.json"),
                          [](const auto& file_info) {
                            const std::string name = file_info.param;
                            return name.substr(0, name.find('.'));
@@ -59,6 +60,16 @@ TEST(MaterialFiles, ModeOneBeamDiffersFromTableTwoInCohesionOnly) {
     for (const char* key : {"cohesion", "name", "source", "units", "notes"}) j->erase(key);
   }
   EXPECT_EQ(table, mode1);
+}
+
+TEST(MaterialFiles, BilinearBeamDiffersInSofteningOnly) {
+  nlohmann::json one = load("bellego_mode1.json");
+  nlohmann::json two = load("bellego_mode1_bilinear.json");
+  EXPECT_EQ(two.at("softening"), "bilinear");
+  for (auto* j : {&one, &two}) {
+    for (const char* key : {"softening", "name", "source", "units", "notes"}) j->erase(key);
+  }
+  EXPECT_EQ(one, two);
 }
 
 }  // namespace

@@ -55,9 +55,12 @@ double integral(const Softening<double>& law, double end, const std::function<do
 TEST(Softening, WordsAndKindsAgree) {
   EXPECT_EQ(to_string(SofteningKind{}), std::string("exponential"));
   EXPECT_EQ(from_word<SofteningKind>("exponential"), softening_kind<ExponentialSoftening>);
+  EXPECT_EQ(from_word<SofteningKind>("bilinear"), softening_kind<BilinearSoftening>);
   EXPECT_FALSE(from_word<SofteningKind>("linear-ish"));
   Parameters p = table1();
   EXPECT_TRUE(std::holds_alternative<ExponentialSoftening<double>>(Softening<double>::make(p).law));
+  p.choices.softening = softening_kind<BilinearSoftening>;
+  EXPECT_TRUE(std::holds_alternative<BilinearSoftening<double>>(Softening<double>::make(p).law));
 }
 
 TEST(Softening, StartsWholeAndFalls) {

@@ -75,6 +75,33 @@ TEST(Run, CoarseBeamCracksAndBalances) {
     EXPECT_NE(entry.path().filename().string()[0], '.');
 }
 
+/// The softening law of the material reaches the particles: those that open lie on Petersson's two lines.
+TEST(Run, SofteningIsThatOfTheMaterial) {
+  const Scene scene = small_beam({"material=../materials/bellego_mode1_bilinear.json", "output.frames=20"});
+  const fs::path folder = fpz::test::fresh_path("bilinear_beam");
+  const RunResult r = run(scene, folder);
+  EXPECT_EQ(r.ending, Ending::finished) << r.reason;
+  EXPECT_LT(findings(scene, r.history, 0.05).balance_error, 0.01);
+  EXPECT_NE(fpz::test::text_of(folder / "summary.json").find("\"softening\": \"bilinear\""), std::string::npos);
+  int first_line = 0, second_line = 0;
+  for (const Frame& frame : r.frames) {
+    const PointCloud cloud = read_vtk(folder / frame.file);
+    const std::vector<double>& damage = cloud.find("damage")->values;
+    const std::vector<double>& jump = cloud.find("jump")->values;
+    const std::vector<double>& normal = cloud.find("crack_normal")->values;
+    for (std::size_t i = 0; i < damage.size(); ++i) {
+      const double opening = jump[3 * i] * normal[3 * i] + jump[3 * i + 1] * normal[3 * i + 1];
+      const double x = opening / scene.parameters.delta0;
+      if (damage[i] <= 0.0 || damage[i] >= 1.0 || x <= 0.0) continue;
+      const double w = x < 0.8 ? 1.0 - x / 1.2 : std::max(3.6 - x, 0.0) / 8.4;
+      EXPECT_GE(damage[i], 1.0 - w - 1e-6);  // slip and unloading can only add to it
+      if (damage[i] - (1.0 - w) < (x < 0.8 ? 2e-3 : 2e-2)) ++(x < 0.8 ? first_line : second_line);
+    }
+  }
+  EXPECT_GT(first_line, 1);
+  EXPECT_GT(second_line, 1);
+}
+
 /// Through cracking, so that every part of a checkpoint matters: gauges of all kinds, frames at deflections and at
 /// parts of the peak load, a stop rule that needs the peak.
 TEST(Run, ResumesBitForBit) {

@@ -30,13 +30,14 @@
 #include <utility>
 #include <variant>
 
+#include "fpz/law/bilinear.hpp"
 #include "fpz/law/exponential.hpp"
 
 namespace fpz {
 
 /// The softening laws that a material can have, the default first.
 template <class P>
-using SofteningLaws = std::variant<ExponentialSoftening<P>>;
+using SofteningLaws = std::variant<ExponentialSoftening<P>, BilinearSoftening<P>>;
 
 /// The law of a material, chosen at run time: it passes every question on to the one that it holds.
 template <class P>
