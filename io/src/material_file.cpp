@@ -14,8 +14,7 @@ constexpr std::array<std::string_view, 4> text_keys = {"name", "source", "units"
 std::vector<std::string_view> all_keys() {
   std::vector<std::string_view> keys;
   for (const ParameterInfo<double>& key : material_keys) keys.push_back(key.name);
-  const MaterialChoices defaults;
-  visit_choices(defaults, [&keys](const char* key, auto) { keys.emplace_back(key); });
+  for (const std::string_view key : choice_keys()) keys.push_back(key);
   keys.insert(keys.end(), text_keys.begin(), text_keys.end());
   return keys;
 }
@@ -52,6 +51,20 @@ std::string line_of(const Location& at, const Violation& v) {
 
 }  // namespace
 
+std::vector<std::string_view> choice_keys() {
+  std::vector<std::string_view> keys;
+  const MaterialChoices defaults;
+  visit_choices(defaults, [&keys](const char* key, auto) { keys.emplace_back(key); });
+  return keys;
+}
+
+void read_choices(const InputReader& reader, const Place& place, MaterialChoices& choices) {
+  visit_choices(choices, [&](const char* key, auto& choice) {
+    const JsonValue* word = place.value().find(key);
+    if (word != nullptr) read_choice(reader, Place(place, *word), choice);
+  });
+}
+
 std::optional<MaterialFile> read_material(const InputReader& reader, const Place& place, std::string name) {
   if (!reader.object(place, "the parameters of a material")) return std::nullopt;
   const std::size_t before = reader.problems().size();
@@ -69,10 +82,7 @@ std::optional<MaterialFile> read_material(const InputReader& reader, const Place
     material.parameters.*material_keys[k].member = *x;
     material.locations[k] = {reader.file(), value->line, Place(place, *value).path()};
   }
-  visit_choices(material.parameters.choices, [&](const char* key, auto& choice) {
-    const JsonValue* word = place.value().find(key);
-    if (word != nullptr) read_choice(reader, Place(place, *word), choice);
-  });
+  read_choices(reader, place, material.parameters.choices);
   const JsonValue* given = place.value().find("name");
   if (given != nullptr && given->is(Kind::string)) {
     if (const auto text = reader.text(Place(place, *given), longest_name)) material.name = *text;

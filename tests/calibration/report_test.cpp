@@ -64,6 +64,12 @@ TEST(Report, SofteningIsThatOfTheMaterial) {
   write_report(c, {folder.path(), false, false, {}});
   EXPECT_EQ(io::read_material_file(folder.path() / "material.json").choices.softening,
             softening_kind<BilinearSoftening>);
+  // Or stated with the parameters of the specification itself.
+  const Specification own = parse_specification(
+      R"({"material": "../materials/johnstone.json", "fit": ["delta0"], "parameters": {"softening": "bilinear"},
+          "data": [{"name": "G1", "kind": "fracture_energy", "mode": "I", "energy": 12.0, "deviation": 0.5}]})",
+      FPZ_DATA_DIR "/calibration/bilinear.json");
+  EXPECT_EQ(own.start().choices.softening, softening_kind<BilinearSoftening>);
 }
 
 TEST(Report, JsonIsComplete) {

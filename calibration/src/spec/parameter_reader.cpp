@@ -126,7 +126,11 @@ class ParameterReader {
     if (own == nullptr) return;
     const Place at(root_, *own);
     if (!c_.reader.object(at, "the parameters of a material")) return;
-    c_.reader.known_keys(at, all_names());
+    auto known = all_names();
+    const auto choices = io::choice_keys();
+    known.insert(known.end(), choices.begin(), choices.end());
+    c_.reader.known_keys(at, known);
+    io::read_choices(c_.reader, at, spec_.choices);
     for (const JsonValue& member : own->items) {
       const auto names = all_names();
       if (std::find(names.begin(), names.end(), member.key) != names.end()) read_entry(Place(at, member));

@@ -55,16 +55,6 @@ void BondedPlaten<Dim>::hold() {
   for (const Component& d : prescribed_) this->run_.particles.velocity[d.component][d.slot] = 0.0;
 }
 
-template <int Dim>
-Boundaries<Dim> make_boundaries(RunData<Dim>& run) {
-  Boundaries<Dim> all;
-  for (std::size_t g = 0; g < run.setup.groups.size(); ++g) {
-    all.push_back(std::make_unique<BondedPlaten<Dim>>(run, g));
-  }
-  return all;
-}
-
 template class BondedPlaten<2>;
-template Boundaries<2> make_boundaries<2>(RunData<2>&);
 
 }  // namespace fpz::sph::detail

@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "fpz/io/input_reader.hpp"
@@ -50,6 +51,12 @@ std::vector<std::string> check_material(const MaterialFile& material, const Para
 /// Reads and validates a material file (keys as in data/materials). `rve_length` is left at 0. Without a key "name" the
 /// name is that of the file.
 [[nodiscard]] Parameters read_material_file(const std::filesystem::path& file, std::string* name = nullptr);
+
+/// The keys of the choices of a material, all optional.
+[[nodiscard]] std::vector<std::string_view> choice_keys();
+
+/// Reads those of them that the object at `place` has.
+void read_choices(const InputReader& reader, const Place& place, MaterialChoices& choices);
 
 /// Adds the choices of a material that are not the default to a JSON object.
 template <class Json>
