@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 #include "support/materials.hpp"
 
@@ -88,6 +89,39 @@ TEST(CohesiveLaw, TouchingTheSurfaceIsElastic) {
     EXPECT_NEAR(z.traction[0], on_surface.traction[0], 1e-8 * p.tensile_strength);
     EXPECT_NEAR(z.integrity, on_surface.integrity, 1e-12);
     EXPECT_NEAR(k(0, 0), on_surface.integrity * p.normal_stiffness, 1e-9 * p.normal_stiffness);
+  }
+}
+
+/// The hyperbola under another name: the integrators know it by its members only.
+struct OtherSurface : HyperbolicSurface<double> {
+  [[nodiscard]] static OtherSurface make(const Parameters& p) { return {HyperbolicSurface<double>::make(p)}; }
+};
+
+/// Surface and softening are values: given statically, without the choice at run time and without the coordinates that
+/// `implicit` has for the hyperbola, they give the same.
+TEST(CohesiveUpdate, LawsAreValues) {
+  const Parameters p = table1();
+  using Static = CohesiveLaw<double, OtherSurface, ExponentialSoftening<double>>;
+  const Static general = Static::make(p);
+  const CohesiveLaw<double> law = make_cohesive_law(p);
+  std::mt19937_64 rng(3);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  for (const Method method : {Method::accurate, Method::implicit}) {
+    Options o;
+    o.method = method;
+    CohesiveState<double, 3> a = cracked_at<double, 3>(law, Vec<double, 3>(p.tensile_strength, 0.0, 0.0));
+    CohesiveState<double, 3> b = a;
+    for (int k = 0; k < 400; ++k) {
+      const double size = 0.05 * p.delta0;
+      const Vec<double, 3> du(size * (0.3 + uniform(rng)), size * uniform(rng), size * uniform(rng));
+      ASSERT_TRUE(cohesive_update(law, o, a, du, a).ok());
+      ASSERT_TRUE(cohesive_update(general, o, b, du, b).ok());
+      const double tolerance = method == Method::accurate ? 0.0 : 1e-9;
+      ASSERT_LE((a.traction - b.traction).norm(), tolerance * p.tensile_strength) << k;
+      ASSERT_NEAR(a.integrity, b.integrity, tolerance);
+      ASSERT_NEAR(a.dissipated, b.dissipated, tolerance * p.tensile_strength * p.delta0);
+    }
+    EXPECT_LT(a.integrity, 0.1);
   }
 }
 
