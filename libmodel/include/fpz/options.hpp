@@ -9,7 +9,7 @@ enum class Method : std::uint8_t {
   paper,     ///< eq 51-61 as printed with its slips repaired: semi-implicit,
              ///< baseline for comparison
   implicit,  ///< backward Euler on the scaled hyperbola, traction continuity
-             ///< eliminated; first order, always solvable
+             ///< eliminated; first order, solvable but for snap-back if psi > 0
   accurate   ///< adaptive stiffly stable Rosenbrock method of order 4(3) on the
              ///< rate equations, events located
 };
@@ -41,7 +41,7 @@ struct Report {
   Status status = Status::ok;
   int iterations = 0;  ///< Newton iterations (implicit), traction iterations
                        ///< (paper), steps tried (accurate)
-  int substeps = 0;    ///< accepted sub-steps (accurate); 1 otherwise
+  int substeps = 0;    ///< accepted sub-steps (accurate), parts (implicit), 1 (paper); 0 while a point stays intact
   bool onset = false;  ///< the fracture appeared in this update
 
   [[nodiscard]] bool ok() const { return status == Status::ok; }
