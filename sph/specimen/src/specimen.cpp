@@ -161,10 +161,9 @@ PointCloud frame_of(const sph::Simulation<2>& run, const Specimen& specimen) {
     sxy.push_back(stress(0, 1));
     vector(velocity, p.velocity[0][i], p.velocity[1][i]);
     vector(displacement, p.position[0][i] - p.start[0][i], p.position[1][i] - p.start[1][i]);
-    // sigma : C^-1 : sigma / 2 of the bulk.
-    const double trace = stress.trace();
-    const double square = stress.squaredNorm();
-    elastic.push_back((square - bulk.lambda / (2.0 * bulk.lambda + 2.0 * bulk.mu) * trace * trace) / (4.0 * bulk.mu));
+    Tensor<double, 2> components;
+    components << stress(0, 0), stress(1, 1), stress(0, 1);
+    elastic.push_back(elastic_energy<2>(bulk, components, 1.0));
     dissipated.push_back(cracked ? p.point[i].crack.dissipated : 0.0);
     length.push_back(cracked ? p.length[i] : 0.0);
   }
