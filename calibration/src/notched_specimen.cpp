@@ -64,7 +64,7 @@ std::string why_unusable(const NotchedSpecimenTest& test, const Parameters& para
                          const Eigen::VectorXd& nuisance) {
   const Validation valid = validate(test);
   if (!valid.ok()) return valid.report();
-  const std::string inadmissible = why_inadmissible(parameters, test.specimen.setting);
+  std::string inadmissible = why_inadmissible(parameters, test.specimen.setting);
   if (!inadmissible.empty()) return inadmissible;
   const auto info = nuisances(test.gauge);
   if (nuisance.size() != static_cast<Eigen::Index>(info.size())) {

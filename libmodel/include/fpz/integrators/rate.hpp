@@ -193,7 +193,7 @@ template <int Dim, class T, class Law>
   }
   for (int piece = 0; piece < (crosses ? 2 : 1); ++piece, tension = !tension) {
     const T from = piece == 0 ? T(0.0) : kink;
-    const T to = piece == 0 ? kink : T(1.0);
+    T to = piece == 0 ? kink : T(1.0);
     const T scale = tension ? T(1.0) : w;
     const T inverse_cn = 1.0 / (zone.law.flexibility_n + (tension ? w : T(1.0)) * zone.series.normal);
     const T n = (q0[0] + dq[0] * from) * inverse_cn;
