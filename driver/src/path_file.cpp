@@ -190,15 +190,8 @@ class FileReader {
     const JsonValue* key = &place.value();
     const auto known = materials_.find(key);
     if (known != materials_.end()) return known->second;
-    std::optional<MaterialFile> material;
-    if (key->is(Kind::string)) {
-      material = material_from_file(place);
-    } else if (key->is(Kind::object)) {
-      material = read_material(reader_, place, "inline");
-    } else {
-      reader_.problem(
-          place, "expected an object with the parameters or the name of a material file, found " + key->description());
-    }
+    std::optional<MaterialFile> material =
+        io::material_at(reader_, place, [this](const Place& name) { return material_from_file(name); });
     return materials_.emplace(key, std::move(material)).first->second;
   }
 

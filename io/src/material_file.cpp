@@ -10,6 +10,7 @@ using Kind = JsonValue::Kind;
 
 constexpr std::size_t longest_name = 200;
 constexpr std::array<std::string_view, 4> text_keys = {"name", "source", "units", "notes"};
+constexpr std::string_view file_key = "file";
 
 std::vector<std::string_view> all_keys() {
   std::vector<std::string_view> keys;
@@ -34,6 +35,12 @@ void check_texts(const InputReader& reader, const Place& place) {
   }
 }
 
+void read_name(const InputReader& reader, const Place& place, std::string& name) {
+  const JsonValue* given = place.value().find("name");
+  if (given == nullptr || !given->is(Kind::string)) return;
+  if (const auto text = reader.text(Place(place, *given), longest_name)) name = *text;
+}
+
 template <Worded E>
 void read_choice(const InputReader& reader, const Place& at, E& choice) {
   const std::optional<std::string> word = reader.text(at, longest_name);
@@ -43,6 +50,29 @@ void read_choice(const InputReader& reader, const Place& at, E& choice) {
   } else {
     reader.problem(at, in_quotes(*word) + " is not known; it must be " + all_words<E>());
   }
+}
+
+/// Reads parameter k from its value.
+bool read_parameter(const InputReader& reader, const Place& at, std::size_t k, MaterialFile& material) {
+  const std::optional<double> x = reader.number(at);
+  if (!x) return false;
+  material.parameters.*material_keys[k].member = *x;
+  material.locations[k] = {reader.file(), at.line(), at.path()};
+  return true;
+}
+
+/// What the object at `place` says in place of the file that it names.
+void replace_parts(const InputReader& reader, const Place& place, MaterialFile& material) {
+  std::vector<std::string_view> keys = all_keys();
+  keys.push_back(file_key);
+  reader.known_keys(place, keys, is_foreign);
+  check_texts(reader, place);
+  for (std::size_t k = 0; k < material_keys.size(); ++k) {
+    const JsonValue* value = place.value().find(material_keys[k].name);
+    if (value != nullptr) (void)read_parameter(reader, Place(place, *value), k, material);
+  }
+  read_choices(reader, place, material.parameters.choices);
+  read_name(reader, place, material.name);
 }
 
 std::string line_of(const Location& at, const Violation& v) {
@@ -76,18 +106,33 @@ std::optional<MaterialFile> read_material(const InputReader& reader, const Place
   bool complete = true;
   for (std::size_t k = 0; k < material_keys.size(); ++k) {
     const JsonValue* value = reader.required(place, material_keys[k].name);
-    const std::optional<double> x = value != nullptr ? reader.number(Place(place, *value)) : std::nullopt;
-    complete = complete && x;
-    if (!x) continue;
-    material.parameters.*material_keys[k].member = *x;
-    material.locations[k] = {reader.file(), value->line, Place(place, *value).path()};
+    complete = value != nullptr && read_parameter(reader, Place(place, *value), k, material) && complete;
   }
   read_choices(reader, place, material.parameters.choices);
-  const JsonValue* given = place.value().find("name");
-  if (given != nullptr && given->is(Kind::string)) {
-    if (const auto text = reader.text(Place(place, *given), longest_name)) material.name = *text;
-  }
+  read_name(reader, place, material.name);
   if (!complete || reader.problems().size() != before) return std::nullopt;
+  return material;
+}
+
+std::optional<MaterialFile> material_at(const InputReader& reader, const Place& place, const MaterialLoader& load) {
+  const JsonValue& value = place.value();
+  if (value.is(Kind::string)) return load(place);
+  if (!value.is(Kind::object)) {
+    reader.problem(
+        place, "expected an object with the parameters or the name of a material file, found " + value.description());
+    return std::nullopt;
+  }
+  const JsonValue* file = value.find(file_key);
+  if (file == nullptr) return read_material(reader, place, "inline");
+  const Place name(place, *file);
+  if (!file->is(Kind::string)) {
+    reader.problem(name, "expected the name of a material file, found " + file->description());
+    return std::nullopt;
+  }
+  std::optional<MaterialFile> material = load(name);
+  const std::size_t before = reader.problems().size();
+  if (material) replace_parts(reader, place, *material);
+  if (reader.problems().size() != before) return std::nullopt;
   return material;
 }
 

@@ -104,6 +104,29 @@ TEST(PathFile, SmallestFileOfTheFormat) {
   EXPECT_FALSE(t.stages[1].jump.has_value());
 }
 
+TEST(PathFile, MaterialFileWithOtherValuesBesideIt) {
+  const auto with = [](const std::string& material) {
+    return R"({"material": )" + material + R"(, "rve_length": 0.004, "setting": "plane_strain",
+ "integrator": {"name": "accurate", "tolerance": 1e-6}, "stages": [{"increments": 1, "strain": {"xx": 1e-3}}]})";
+  };
+  const std::string file = R"({"file": "../materials/johnstone.json")";
+  const PathFile read = parse_path_file(with(file + R"(, "cohesion": 2e6, "softening": "bilinear"})"), origin);
+  const PathTest& t = read.tests.at(0);
+  EXPECT_EQ(t.parameters.cohesion, 2e6);
+  EXPECT_EQ(t.parameters.tensile_strength, 0.6e6);
+  EXPECT_EQ(to_string(t.parameters.choices.softening), "bilinear");
+  EXPECT_EQ(t.material_name, "Johnstone (soft rock)");
+
+  EXPECT_EQ(message_of(with(file + ", \"cohesion\": 3e5}")),
+            origin.string() +
+                ":1: material.cohesion = 3e+05: must be > tensile_strength * tan(friction_angle_deg) = "
+                "389644.6");
+  EXPECT_NE(message_of(with(file + ", \"cohesionn\": 2e6}")).find("did you mean \"cohesion\"?"), std::string::npos);
+  EXPECT_NE(message_of(with(R"({"file": 3})")).find("material.file: expected the name of a material file"),
+            std::string::npos);
+  EXPECT_NE(message_of(with(R"({"file": "none.json"})")).find("cannot read material file"), std::string::npos);
+}
+
 TEST(PathFile, EveryKeyOfAStage) {
   const PathFile file = parse_path_file(with_stages(R"([
     {"name": "a", "automatic": {"tolerance": 1e-3, "increments": 10}, "strain": {"xx": 1e-3}, "stress": {"yy": -1e5},

@@ -68,6 +68,17 @@ std::string quoted(const std::string& text) {
   return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
+/// The name of a material file as an object that names it, so that other keys can stand beside it.
+void give_file_a_key(JsonValue& name) {
+  JsonValue object;
+  object.kind = Kind::object;
+  object.line = name.line;
+  object.key = std::move(name.key);
+  name.key = "file";
+  object.items.push_back(std::move(name));
+  name = std::move(object);
+}
+
 bool is_leaf(const JsonValue& v) { return !v.is(Kind::object) && !v.is(Kind::array); }
 
 void write(const JsonValue& v, const std::string& indent, std::string& out) {
@@ -126,6 +137,7 @@ void apply_override(JsonValue& root, const std::string& assignment, const std::s
       at = &at->items[*step.index];
       continue;
     }
+    if (at == root.find("material") && at->is(Kind::string)) give_file_a_key(*at);
     if (!at->is(Kind::object)) return refuse(io::in_quotes(step.name) + " where the scene has " + at->description());
     JsonValue* member = nullptr;
     for (JsonValue& m : at->items) {

@@ -12,22 +12,28 @@ constexpr std::array<std::string_view, 17> root_keys = {
     "name",    "description", "source", "material",   "setting", "thickness", "spacing", "shape", "holes",
     "notches", "arrangement", "method", "boundaries", "gauges",  "toughness", "stop",    "output"};
 
+/// Puts what an object says in place of the same keys of the file that it names.
+void replace_members(JsonValue& file, const JsonValue& given) {
+  for (const JsonValue& own : given.items) {
+    if (own.key == "file") continue;
+    JsonValue* old = member(file, own.key);
+    (old != nullptr ? *old : file.items.emplace_back()) = own;
+  }
+}
+
 /// The material, and the file's content in place of its name.
 std::optional<io::MaterialFile> read_material_of(const InputReader& r, JsonValue& root) {
   const Place top(root);
   const JsonValue* given = r.required(top, "material");
   if (given == nullptr) return std::nullopt;
-  const Place place(top, *given);
-  if (given->is(JsonValue::Kind::object)) return io::read_material(r, place, "inline");
-  if (!given->is(JsonValue::Kind::string)) {
-    r.problem(place,
-              "expected an object with the parameters or the name of a material file, found " + given->description());
-    return std::nullopt;
-  }
-  auto file = load_tree(r, place, "material file");
-  if (!file) return std::nullopt;
-  auto material =
-      io::read_material(InputReader(file->shown_as, r.limits(), r.problems()), Place(file->root), file->stem);
+  std::optional<NamedTree> file;
+  auto material = io::material_at(r, Place(top, *given), [&](const Place& name) -> std::optional<io::MaterialFile> {
+    file = load_tree(r, name, "material file");
+    if (!file) return std::nullopt;
+    return io::read_material(InputReader(file->shown_as, r.limits(), r.problems()), Place(file->root), file->stem);
+  });
+  if (!file) return material;
+  if (given->is(JsonValue::Kind::object)) replace_members(file->root, *given);
   file->root.key = given->key;
   *member(root, "material") = std::move(file->root);
   return material;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "fpz/io/input_error.hpp"
+#include "fpz/law/softening.hpp"
 #include "fpz/specimen/specimen.hpp"
 
 namespace {
@@ -46,6 +47,19 @@ TEST(Scene, OverridesChangeAnyEntry) {
   EXPECT_EQ(s.boundaries[0].velocity[1]->speed, -0.5);
   EXPECT_EQ(*s.stop.deflection, 1e-5);
   EXPECT_EQ(s.parameters.cohesion, 2.9e6);
+}
+
+TEST(Scene, OverridesReplacePartsOfAMaterialFile) {
+  const Scene s = read_scene(scenes / "beam_3pb.json", {"material.cohesion=6e6", "material.softening=bilinear"});
+  EXPECT_EQ(s.parameters.cohesion, 6e6);
+  EXPECT_EQ(s.parameters.tensile_strength, 2.9e6);
+  EXPECT_EQ(to_string(s.parameters.choices.softening), "bilinear");
+  // The scene's copy is complete and reads as the same material from anywhere.
+  const Scene again = parse_scene(s.text, "/elsewhere/x.json");
+  EXPECT_EQ(again.parameters.cohesion, 6e6);
+  EXPECT_EQ(to_string(again.parameters.choices.softening), "bilinear");
+  EXPECT_EQ(again.material_name, s.material_name);
+  EXPECT_NE(beam_complaint({"material.cohesion=1"}).find("material.cohesion = 1: must be >"), std::string::npos);
 }
 
 TEST(Scene, OverridesAreCheckedLikeTheFile) {

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -37,6 +38,14 @@ struct MaterialFile {
 /// The material at `place`; nothing when a value is missing or of a wrong type. `name` is used when it has none.
 [[nodiscard]] std::optional<MaterialFile> read_material(const InputReader& reader, const Place& place,
                                                         std::string name);
+
+/// Reads the material file that the string at a place names; what is wrong is a problem.
+using MaterialLoader = std::function<std::optional<MaterialFile>(const Place& name)>;
+
+/// The material as files that use one may give it: its parameters, the name of a material file, or an object whose key
+/// "file" names one and whose other keys replace what that file says.
+[[nodiscard]] std::optional<MaterialFile> material_at(const InputReader& reader, const Place& place,
+                                                      const MaterialLoader& load);
 
 /// The material in a file, which messages call `shown_as`.
 [[nodiscard]] std::optional<MaterialFile> load_material(const std::filesystem::path& file, const std::string& shown_as,
