@@ -14,15 +14,29 @@ namespace fpz {
 /// Which softening law a material has: a value of the list in law/softening.hpp, the default first.
 enum class SofteningKind : std::uint8_t {};
 
+/// How the jump of a cohesive zone that does not yield follows the traction, the default first (docs/equations.md).
+enum class CohesiveZone : std::uint8_t {
+  published,  ///< t = P K (u + u0 - up), the paper's: springs preloaded at onset by u0 = K^-1 t_onset
+  consistent  ///< u - up = D K^-1 t: rigid at onset, never stores less than nothing
+};
+
+template <>
+struct Words<CohesiveZone> {
+  static constexpr Word<CohesiveZone> list[] = {{CohesiveZone::published, "published"},
+                                                {CohesiveZone::consistent, "consistent"}};
+};
+
 /// What a material chooses besides its numbers. Files may leave a choice out: it is the default then.
 struct MaterialChoices {
   SofteningKind softening{};
+  CohesiveZone cohesive_zone{};
 };
 
 /// Calls f(key, choice) for every choice; all are enumerations with words (words.hpp, law/softening.hpp).
 template <class Choices, class F>
 void visit_choices(Choices& c, F&& f) {
   f("softening", c.softening);
+  f("cohesive_zone", c.cohesive_zone);
 }
 
 /// The eleven numbers of the model (Tables 1-3 of the paper) and its choices. SI units, angles in degrees.

@@ -20,10 +20,11 @@ struct CohesiveLaw {
   P flexibility_s{};  ///< 1/Ks, m/Pa
   SurfaceLaw surface;
   SofteningLaw softening;
+  CohesiveZone zone{};
 
   [[nodiscard]] static CohesiveLaw make(const BasicParameters<P>& p) {
-    return {p.normal_stiffness,      p.shear_stiffness,   1.0 / p.normal_stiffness,
-            1.0 / p.shear_stiffness, SurfaceLaw::make(p), SofteningLaw::make(p)};
+    return {p.normal_stiffness,  p.shear_stiffness,     1.0 / p.normal_stiffness, 1.0 / p.shear_stiffness,
+            SurfaceLaw::make(p), SofteningLaw::make(p), p.choices.cohesive_zone};
   }
 };
 
@@ -45,8 +46,8 @@ struct SeriesCompliance {
 template <class P, class Y, class S>
 [[nodiscard]] auto values(const CohesiveLaw<P, Y, S>& a) {
   using Plain = CohesiveLaw<double, decltype(a.surface.values()), decltype(a.softening.values())>;
-  return Plain{value(a.kn),        value(a.ks),         value(a.flexibility_n), value(a.flexibility_s),
-               a.surface.values(), a.softening.values()};
+  return Plain{value(a.kn),          value(a.ks), value(a.flexibility_n), value(a.flexibility_s), a.surface.values(),
+               a.softening.values(), a.zone};
 }
 template <class Y, class S>
 [[nodiscard]] const CohesiveLaw<double, Y, S>& values(const CohesiveLaw<double, Y, S>& a) {
