@@ -30,6 +30,7 @@ class PointRun {
     record(0, 0, 0.0, 0, "ok");
     for (stage_ = 1; stage_ <= static_cast<int>(test_.stages.size()) && result_.ok(); ++stage_) run_stage();
     summarise();
+    judge_stored_energy();
     result_.summary.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
     return std::move(result_);
   }
@@ -367,6 +368,10 @@ class PointRun {
       if (s.onset->stress[c] > s.highest[c].value) s.highest[c] = {s.onset->stress[c], s.onset->time};
       if (s.onset->stress[c] < s.lowest[c].value) s.lowest[c] = {s.onset->stress[c], s.onset->time};
     }
+    s.least_stored = {0.0, 0.0};
+    for (const Row& r : result_.history) {
+      if (r.stored < s.least_stored.value) s.least_stored = {r.stored, r.time};
+    }
     const Row& last = result_.history.back();
     s.damage = last.damage;
     s.stored = last.stored;
@@ -376,6 +381,24 @@ class PointRun {
     s.energy_balance = largest > 0.0 ? (s.work - s.stored - s.dissipated) / largest : 0.0;
     s.fracture_work_per_area = now_.fracture_work;
     s.fracture_dissipated_per_area = now_.point.cracked ? now_.point.crack.dissipated : 0.0;
+  }
+
+  /// Less than nothing cannot be stored: a balance that closes with it is none.
+  void judge_stored_energy() {
+    constexpr double negligible = 0.01;  // of G
+    const Parameters& p = test_.parameters;
+    const double fracture_energy = p.tensile_strength * p.delta0;
+    const double least = result_.summary.least_stored.value * p.rve_length;
+    if (!result_.ok() || least >= -negligible * fracture_energy) return;
+    result_.status = "negative_energy";
+    std::ostringstream text;
+    text.precision(4);
+    text
+        << "test \"" << test_.name << "\": the stored energy falls to " << least << " J per m^2 of crack at time "
+        << result_.summary.least_stored.time << ", where the fracture energy is " << fracture_energy
+        << ": an error of the model, which gives back energy that nobody put in. The springs of the published zone are "
+           "preloaded at onset. Use \"cohesive_zone\": \"consistent\", or stiffer springs.";
+    result_.message = text.str();
   }
 
   const Test& test_;

@@ -63,6 +63,7 @@ std::string to_json(const Test& test, const Result& result) {
   j["final_damage"] = s.damage;
   j["energy"] = {{"work", s.work},
                  {"stored", s.stored},
+                 {"least_stored", s.least_stored.value},
                  {"dissipated", s.dissipated},
                  {"relative_balance_residual", s.energy_balance}};
   j["fracture"] = {{"work_per_area", s.fracture_work_per_area},

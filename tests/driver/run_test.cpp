@@ -181,6 +181,32 @@ TEST(MixedControl, StressControlPastThePeakStopsAtTheLoadLimit) {
   EXPECT_EQ(result.history.back().status, "load_limit");
 }
 
+/// Confined, sheared until the fracture has D = 0.02, and back to zero stress.
+PathTest closed_stress_cycle(CohesiveZone zone) {
+  PathTest test;
+  test.name = "cycle";
+  test.parameters = test::table3(1e-3);
+  test.parameters.choices.cohesive_zone = zone;
+  test.options.tolerance = 1e-6;
+  test.stages = {
+      stage(20, {{xx, Prescribed::stress, -20e6}, {yy, Prescribed::stress, -20e6}}),
+      stage(4000, {{xy, Prescribed::strain, 0.05}, {xx, Prescribed::stress, -20e6}, {yy, Prescribed::stress, -20e6}}),
+      stage(400, {{xx, Prescribed::stress, 0.0}, {yy, Prescribed::stress, 0.0}, {xy, Prescribed::stress, 0.0}})};
+  test.stages[1].stop = {{"D", 0.02}};
+  return test;
+}
+
+TEST(StoredEnergy, BelowZeroIsAnErrorOfTheModel) {
+  const PathTest test = closed_stress_cycle(CohesiveZone::published);
+  const Result result = run_test(test);
+  EXPECT_EQ(result.status, "negative_energy");
+  EXPECT_THAT(result.message, HasSubstr("gives back energy that nobody put in"));
+  EXPECT_THAT(result.message, HasSubstr("\"cohesive_zone\": \"consistent\""));
+  EXPECT_NEAR(result.history.back().stress[xy], 0.0, 1.0);  // the path is complete
+  EXPECT_LT(result.summary.work * test.parameters.rve_length, -900.0);
+  EXPECT_LT(result.summary.least_stored.value * test.parameters.rve_length, -1000.0);
+}
+
 TEST(StopCondition, EndsTheStageAtTheValue) {
   PathTest test = johnstone_test();
   test.stages = {stage(100, {{xx, Prescribed::strain, 4e-3}}), stage(10, {{xx, Prescribed::strain, 0.0}})};

@@ -22,7 +22,7 @@ using Observer = std::function<void(const Progress&)>;
 
 /// Largest or smallest value of a stress component and when it was met.
 struct Peak {
-  double value = 0.0;  ///< Pa
+  double value = 0.0;  ///< Pa, or J/m^3
   double time = 0.0;
 };
 
@@ -48,6 +48,7 @@ struct Summary {
   std::optional<Onset> onset;
   double damage = 0.0;
   double stored = 0.0;                        ///< J/m^3
+  Peak least_stored;                          ///< the smallest of all rows, J/m^3, and its time
   double dissipated = 0.0;                    ///< J/m^3
   double work = 0.0;                          ///< J/m^3
   double energy_balance = 0.0;                ///< (work - stored - dissipated) over the largest of them
@@ -58,10 +59,12 @@ struct Summary {
 };
 
 /// What became of a test. After a failure the history ends with the last good state and `message` says what happened.
+/// A stored energy below zero by more than a hundredth of G per crack area is an error of the model: the history is
+/// complete then, but it has energy that nobody put in.
 struct Result {
   History history;
   Summary summary;
-  std::string status = "ok";  ///< "ok", the name of a Status, or "load_limit"
+  std::string status = "ok";  ///< "ok", the name of a Status, "load_limit" or "negative_energy"
   std::string message;
 
   [[nodiscard]] bool ok() const { return status == "ok"; }
