@@ -34,13 +34,17 @@ class JumpPhase {
   [[nodiscard]] Status failure(const Point&) const { return Status::non_convergence; }
   [[nodiscard]] Y rates(const Point& r) const { return rates_in(r); }
 
-  [[nodiscard]] RodasStep<double, N> advance(const Y& y0, const Point&, const Y& f0, double h) const {
-    return rodas_step<double, N>(y0, f0, jacobian(y0), h, [&](const Y& y, Y& out) {
+  [[nodiscard]] RodasStep<double, N> advance(const Y& y0, const Point& r0, const Y& f0, double h) const {
+    const auto rates_at = [&](const Y& y, Y& out) {
       const Point r = point(y);
-      if (!solvable(r)) return false;
+      if (!solvable(r) || !is_within_branch(law(), r)) return false;
       out = rates(r);
       return true;
-    });
+    };
+    if (!slides_on_closed_faces(law(), r0)) {
+      return rodas_step<double, N>(y0, f0, jacobian(y0), h, rates_at, law().zone == CohesiveZone::consistent);
+    }
+    return unscaled_step<double, NS>(strain_.softening(), y0, f0, jacobian(y0), h, rates_at);
   }
 
   /// As under strain control, and the error of the load factor as the elastic stress that it would be.
@@ -53,8 +57,8 @@ class JumpPhase {
   }
 
   /// Those of strain control but unloading: kappa only grows.
-  [[nodiscard]] double event(YieldEvent which, const Point& r) const {
-    return which == YieldEvent::unloading ? 1.0 : strain_.event(which, r);
+  [[nodiscard]] double event(YieldEvent which, const Y& y, const Point& r) const {
+    return which == YieldEvent::unloading ? 1.0 : strain_.event(which, y.template head<Dim>(), r);
   }
   [[nodiscard]] double density(const Point& r) const { return strain_.density(r); }
   [[nodiscard]] double power(const Point& r, double a_rate) const { return strain_.power(r, a_rate); }
@@ -63,7 +67,8 @@ class JumpPhase {
   template <class T>
   [[nodiscard]] RatePoint<T, NS> point_in(const Vec<T, N>& y) const {
     const Vec<T, NS> heading = convert<T>(rate_s());
-    const T w = law().softening.after(branch.piece, T(w_begin_), y[NS]);
+    const T begin = T(w_begin_);
+    const T w = PhaseSoftening<T, Law>{law(), branch.piece, begin}.w(y[NS]);
     return rate_point<NS>(zone_, branch, Vec<T, NS>(y.template head<NS>()), w, heading);
   }
 

@@ -129,14 +129,15 @@ template <class Method>
       int fired = -1;
       for (int event = 0; event < detail::yield_event_count; ++event) {
         const auto which = static_cast<detail::YieldEvent>(event);
-        if (phase.event(which, r1) >= 0.0) continue;
+        if (phase.event(which, s.y, r1) >= 0.0) continue;
         const auto at = [&](double to) {
-          return phase.event(which, phase.point(Method::advance(phase, y, r, f, to).y));
+          const Vec2 moved = Method::advance(phase, y, r, f, to).y;
+          return phase.event(which, moved, phase.point(moved));
         };
         double lo = 0.0;
         double hi = h;
-        double e_lo = phase.event(which, r);
-        double e_hi = phase.event(which, r1);
+        double e_lo = phase.event(which, y, r);
+        double e_hi = phase.event(which, s.y, r1);
         const double scale = std::max(std::abs(e_lo), std::abs(e_hi));
         for (int k = 0, side = 0; k < 100 && hi - lo > 1e-15 * h; ++k) {  // Illinois
           double mid = (e_lo * hi - e_hi * lo) / (e_lo - e_hi);

@@ -1,4 +1,4 @@
-// The materials of the paper's Tables 1-3, as plain numbers for the tests.
+// The materials of the paper's Tables 1-3, as plain numbers for the tests, with the cohesive zone that it published.
 #pragma once
 
 #include "fpz/parameters.hpp"
@@ -19,6 +19,13 @@ inline Parameters table1(double rve_length = 4e-3) {
   p.normal_stiffness = 1e13;
   p.shear_stiffness = 1e11;
   p.rve_length = rve_length;
+  p.choices.cohesive_zone = CohesiveZone::published;
+  return p;
+}
+
+/// A material with the other form of the zone.
+inline Parameters with_zone(Parameters p, CohesiveZone zone) {
+  p.choices.cohesive_zone = zone;
   return p;
 }
 
@@ -43,6 +50,7 @@ inline Parameters table2(double rve_length = 1e-3) {
   p.normal_stiffness = 1e14;
   p.shear_stiffness = 1e11;
   p.rve_length = rve_length;
+  p.choices.cohesive_zone = CohesiveZone::published;
   return p;
 }
 

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "fpz/parameters.hpp"
 #include "fpz/plane_frame.hpp"
 #include "fpz/types.hpp"
 
@@ -15,7 +16,7 @@ struct CohesiveState {
   Vec<T, Dim> traction = Vec<T, Dim>::Constant(T(0.0));      ///< t, Pa
   Vec<T, Dim> jump = Vec<T, Dim>::Constant(T(0.0));          ///< u, displacement jump since onset, m
   Vec<T, Dim> plastic_jump = Vec<T, Dim>::Constant(T(0.0));  ///< up, m
-  Vec<T, Dim> offset = Vec<T, Dim>::Constant(T(0.0));        ///< u0 = K^-1 t_onset, m (docs/equations.md)
+  Vec<T, Dim> offset = Vec<T, Dim>::Constant(T(0.0));        ///< u0, m: K^-1 t_onset, 0 in the consistent zone
   T slip = T(0.0);                                           ///< up_s of eq 47: accumulated plastic slip, m
   T integrity = T(1.0);                                      ///< w = 1 - D
   T dissipated = T(0.0);                                     ///< energy dissipated since onset per crack area, J/m^2
@@ -57,11 +58,13 @@ template <class T, int Dim>
   return 1.0 - c.integrity;
 }
 
-/// A zone that has just cracked under the traction `t_onset` (local frame, Pa): zero jump, offset u0 = K^-1 t_onset.
+/// A zone that has just cracked under the traction `t_onset` (local frame, Pa): zero jump. The published zone has the
+/// offset u0 = K^-1 t_onset.
 template <class T, int Dim, class Law>
 [[nodiscard]] CohesiveState<T, Dim> cracked_at(const Law& law, const Vec<T, Dim>& t_onset) {
   CohesiveState<T, Dim> z;
   z.traction = t_onset;
+  if (law.zone == CohesiveZone::consistent) return z;
   z.offset[0] = t_onset[0] / law.kn;
   for (int k = 1; k < Dim; ++k) z.offset[k] = t_onset[k] / law.ks;
   return z;

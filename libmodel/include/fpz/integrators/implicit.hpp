@@ -3,7 +3,7 @@
 // In the local frame bulk and cohesive stiffness are diagonal, so u = d - b t removes the jump, and with scaled
 // tractions (law/hyperbola.hpp) two scalar unknowns remain, S = |tau_s| and a = d(kappa):
 //   r1 = q_n - c_n(w) tau_n(S) - a m_n/(m_n+S) = 0,   r2 = |q_s| - c_s(w) S - a S/(m_n+S) = 0,
-//   w = w(w_old, a) of the softening law.
+//   w = w(w_old, a) of the softening law; c as integrated over the step (law/unloading.hpp).
 // Newton from the point of first yield takes 2-4 iterations. If it leaves the domain, a bracketed solve takes over: r2
 // fixes S uniquely for every a, and G(a) = r1(S(a), a) falls from G(0) > 0 to minus infinity, so a root always exists
 // (psi > 0).
@@ -25,7 +25,7 @@ struct ReturnPoint {
   T w;
   SurfacePoint<T> hyp;
   T inv;      ///< 1/(m_n + S), 0 without flow
-  T c_shear;  ///< c_s(w)
+  T c_shear;  ///< c_s
   /// q_s = shear_factor(a) * tau_s, as vectors.
   [[nodiscard]] T shear_factor(const T& a) const { return c_shear + a * inv; }
 };
@@ -42,6 +42,18 @@ struct ReturnStart {
   T shear;
   T integrity;
 };
+
+/// The compliances of a backward Euler step that ends at w. The drags are their derivatives with respect to w.
+template <class T, class Law>
+[[nodiscard]] FPZ_INLINE ScaledCompliance<T> step_compliance(const Zone<Law>& zone, const ReturnStart<T>& start,
+                                                             const T& w, bool tension) {
+  const auto n = zone.normal_law(tension);
+  const auto s = zone.shear_law();
+  const T& old = start.integrity;
+  const bool whole = value(start.shear) == 0.0;
+  return {n.over_step(old, w, whole),       s.over_step(old, w, false),      n.slope(w), s.slope(w),
+          n.over_step_slope(old, w, whole), s.over_step_slope(old, w, false)};
+}
 
 /// Residuals and Jacobian of the backward Euler system at (S, a).
 template <class T>
@@ -64,7 +76,7 @@ template <class T, class Law, class X>
   ReturnSystem<T> e;
   e.w = law.softening.after(start.integrity, T(a));
   e.hyp = law.surface.point(T(s * s));
-  const ScaledCompliance<T> c = scaled_compliance(zone, e.w, value(e.hyp.normal) >= 0.0);
+  const ScaledCompliance<T> c = step_compliance(zone, start, e.w, value(e.hyp.normal) >= 0.0);
   const T sum = e.hyp.flow_n + s;
   const bool flows = value(sum) > 0.0;
   const T joint = 1.0 / (flows ? T(sum * e.hyp.radius) : e.hyp.radius);  // one division for two reciprocals
@@ -80,8 +92,8 @@ template <class T, class Law, class X>
   e.r2 = start.shear - c.shear * s - a * fraction_s;
   e.r1_s = -c.normal * e.normal_s - a * (flow_s * fraction_s - fraction_n) * e.inv;
   e.r2_s = -c.shear - a * (fraction_n - fraction_s * flow_s) * e.inv;
-  e.r1_a = -c.normal_slope * w_a * e.hyp.normal - fraction_n;
-  e.r2_a = -c.shear_slope * w_a * s - fraction_s;
+  e.r1_a = -c.normal_drag * w_a * e.hyp.normal - fraction_n;
+  e.r2_a = -c.shear_drag * w_a * s - fraction_s;
   return e;
 }
 
@@ -99,7 +111,8 @@ template <class Law>
 [[nodiscard]] double shear_at(const Zone<Law>& zone, const ReturnStart<double>& start, double a, double guess,
                               int& iterations) {
   double lo = 0.0;
-  double hi = start.shear / zone.shear_compliance(zone.law.softening.after(start.integrity, a));
+  const double w = zone.law.softening.after(start.integrity, a);
+  double hi = start.shear / step_compliance(zone, start, w, true).shear;
   double s = std::min(std::max(guess, lo), hi);
   for (int k = 0; k < 200; ++k) {
     ++iterations;
@@ -162,7 +175,7 @@ using HyperbolicZone = Zone<CohesiveLaw<P, HyperbolicSurface<P>, Softening>>;
 /// The same system as return_system() multiplied by D = m_n + S and written in z, where S = A (z - 1/z)/2 and R = A (z
 /// + 1/z)/2 run over the hyperbola: one division per evaluation and no root, which halves its latency.
 struct FastSystem {
-  double w, s, radius, normal, flow_n, sum, c_shear;
+  double w, s, radius, normal, flow_n, sum, c_shear, c_shear_w;
   double e1, e2, e1_z, e1_a, e2_z, e2_a;
   double modulus;  ///< positive where h > 0 (rate.hpp)
   double s_z, r_z;
@@ -173,8 +186,8 @@ struct FastSystem {
     const auto& law = zone.law;
     const double dw = law.softening.slope(law.softening.piece(w), w) * da;
     w += dw;
-    if (w < 0.0) w = 0.0;  // a law that ends
-    c_shear += zone.series.shear * dw;
+    w = std::max(w, integrity_floor(law.zone));  // a law that ends
+    c_shear += c_shear_w * dw;
     s += s_z * dz;
     const double dr = r_z * dz;
     radius += dr;
@@ -199,8 +212,9 @@ template <class Softening>
   e.normal = law.normal_0 - law.cot_phi * e.radius;
   e.flow_n = law.flow_0 + law.flow_1 * e.radius;
   e.sum = e.flow_n + e.s;
-  const ScaledCompliance<double> c = scaled_compliance(zone, e.w, e.normal >= 0.0);
+  const ScaledCompliance<double> c = step_compliance(zone, start, e.w, e.normal >= 0.0);
   e.c_shear = c.shear;
+  e.c_shear_w = c.shear_drag;
   const double w_a = zone.law.softening.slope(zone.law.softening.piece(e.w), e.w);
   const double s_z = e.s_z = e.radius * zi;
   const double r_z = e.r_z = e.s * zi;
@@ -213,8 +227,8 @@ template <class Softening>
   e.e2 = y * e.sum - a * e.s;
   e.e1_z = push * e.sum + x * sum_z - a * law.flow_1 * r_z;
   e.e2_z = -c.shear * s_z * e.sum + y * sum_z - a * s_z;
-  e.e1_a = -c.normal_slope * w_a * e.normal * e.sum - e.flow_n;
-  e.e2_a = -c.shear_slope * w_a * e.s * e.sum - e.s;
+  e.e1_a = -c.normal_drag * w_a * e.normal * e.sum - e.flow_n;
+  e.e2_a = -c.shear_drag * w_a * e.s * e.sum - e.s;
   e.modulus = -push * e.e2_a - e.e1_a * c.shear * s_z;
   return e;
 }
@@ -356,6 +370,24 @@ template <class T, int Dim, class Law>
 template <int Dim>
 inline constexpr double largest_integrity_loss = Dim == 1 ? 1.0 : 0.02;
 
+/// Whether a step from w loses more than `allowed`. In the consistent zone also when it loses more than half of what is
+/// left: its integrated compliance (law/unloading.hpp) is meant for less, unless it is a pure opening.
+template <class Law>
+[[nodiscard]] bool goes_too_far(const Law& law, double w, double end, double allowed, bool pure_opening) {
+  if (w - end > allowed) return true;
+  return law.zone == CohesiveZone::consistent && allowed < 1.0 && !pure_opening && 2.0 * end < w;
+}
+
+/// Energy t.flow dissipated in a step of the consistent zone from w0 to w1 over the inelastic displacement `a`, J/m^2,
+/// from tau.flow/a at its ends (Pa): exact where that is constant, as in pure opening, and where it goes as 1/w, as in
+/// friction.
+template <class T, class Softening>
+[[nodiscard]] T flow_work(const Softening& softening, double p0, const T& p1, const T& w0, const T& w1, const T& a) {
+  if (value(w0) - value(w1) <= 1e-6 * value(w0)) return 0.25 * (p0 + p1) * (w0 + w1) * a;
+  const T area = softening.dissipated(Dissipation<double>{1.0, 0.0}, Dissipation<T>{T(1.0), T(0.0)}, w0, w1);
+  return p0 * area + (p1 - p0) / (1.0 / w1 - 1.0 / w0) * (a - area / w0);
+}
+
 /// One backward Euler step over the drive d0 -> d1. The solve runs on plain values; one Newton step in T carries
 /// derivatives over exactly. Writes `end` only on success; `begin` and `end` may be one object. Returns false, and
 /// writes nothing, when the step loses more integrity than `allowed`.
@@ -392,11 +424,14 @@ template <class T, int Dim, class Law>
       solve_return(plain, ReturnStart<double>{q1[0], trial.shear, value(w)}, entry, trial.tolerance);
   report.iterations += root.iterations;
   report.status = root.status;
+  const bool consistent = lawv.zone == CohesiveZone::consistent;
+  const bool too_far = root.a > 0.0 && goes_too_far(lawv, value(w), root.point.w, allowed, trial.shear == 0.0);
+  if (consistent && too_far) return false;  // whatever it says: the step is not to be trusted that far
   // Without dilation nothing relaxes an opening, whatever H is.
   if (root.status == Status::snap_back && !lawv.surface.dilates() && q1[0] > 0.0)
     report.status = Status::no_plastic_flow;
   if (!report.ok()) return true;
-  if (value(w) - root.point.w > allowed) return false;
+  if (too_far) return false;
 
   T s = T(root.s);
   T a = T(root.a);
@@ -426,8 +461,15 @@ template <class T, int Dim, class Law>
     end.plastic_jump[k] = begin.plastic_jump[k] + step * tau;
   }
   end.slip = begin.slip + step * s;
-  end.dissipated =
-      begin.dissipated + zone.law.softening.dissipated(root.entry, dissipation_at(zone.law, point, s), w, point.w);
+  const Dissipation<T> dissipated = dissipation_at(zone.law, point, s);
+  if (consistent) {
+    const Vec<T, Dim> e = elastic_compliance<T, Dim>(zone, point.w);
+    for (int k = 0; k < Dim; ++k) end.plastic_jump[k] = d1[k] - e[k] * traction[k];
+    end.dissipated =
+        begin.dissipated + flow_work(zone.law.softening, root.entry.plastic, dissipated.plastic, w, point.w, a);
+  } else {
+    end.dissipated = begin.dissipated + zone.law.softening.dissipated(root.entry, dissipated, w, point.w);
+  }
   end.integrity = point.w;
   write_state(zone.series, begin, d1, traction, end);
   return true;

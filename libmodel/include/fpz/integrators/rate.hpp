@@ -2,11 +2,10 @@
 //
 // With the drive q moving at a constant rate q' (per unit of the increment), y = (tau_s, a) obeys (docs/equations.md,
 // eq 63-67)
-//   c_n dtau_n/dtau_s . tau_s' + (m_n/D - w tau_n c_n,w / delta0) a' = q_n'
-//   c_s tau_s'                 + (tau_s/D - w tau_s c_s,w / delta0) a' = q_s',
-//   D = m_n + |tau_s|.
-// Eliminating tau_s' leaves  h a' = numerator;  h > 0 is exactly uniqueness of
-// the rate problem (no snap-back), numerator > 0 is loading.
+//   c_n dtau_n/dtau_s . tau_s' + (m_n/D + w_a tau_n k_n) a' = q_n'
+//   c_s tau_s'                 + (tau_s/D + w_a tau_s k_s) a' = q_s',      D = m_n + |tau_s|, w_a = dw/da,
+// with the drag k(w) of the zone (law/unloading.hpp; dc/dw in the published one). Eliminating tau_s' leaves  h a' =
+// numerator;  h > 0 is exactly uniqueness of the rate problem (no snap-back), numerator > 0 is loading.
 #pragma once
 
 #include "fpz/integrators/zone.hpp"
@@ -41,25 +40,6 @@ struct RatePoint {
   T inverse_radius;
   T ratio;  ///< c_n / c_s
 };
-
-/// Puts a zone to the end of a yielding phase, where tau_s = `shear` and the drive is `drive`: the surface and
-/// continuity give the plastic jump; `inelastic` = d(up_n) + d(slip) gives the slip (eq 47). The jump is left to the
-/// caller.
-template <class T, int Dim>
-void end_yielding(CohesiveState<T, Dim>& z, const Vec<T, Dim>& drive, const RatePoint<T, Dim - 1>& r,
-                  const Vec<T, Dim - 1>& shear, const T& inelastic, const T& dissipated) {
-  const T normal = drive[0] + z.offset[0] - r.c.normal * r.hyp.normal;
-  const T slip = inelastic - (normal - z.plastic_jump[0]);
-  if (value(slip) > 0.0) z.slip += slip;  // rounding of a pure opening must not make it negative
-  z.plastic_jump[0] = normal;
-  z.traction[0] = r.w * r.hyp.normal;
-  for (int k = 1; k < Dim; ++k) {
-    z.plastic_jump[k] = drive[k] + z.offset[k] - r.c.shear * shear[k - 1];
-    z.traction[k] = r.w * shear[k - 1];
-  }
-  z.integrity = r.w;
-  z.dissipated += dissipated;
-}
 
 /// Coefficients of the rate equations at (tau_s, w). `direction`: where tau_s heads, used only at tau_s = 0.
 template <int NS, class T, class Law>
@@ -96,8 +76,8 @@ template <int NS, class T, class Law>
   r.inverse_radius = rest * r.c.shear;
   r.normal_s = tau_s * zone.law.surface.slope(r.inverse_radius);
   const T w_a = zone.law.softening.slope(branch.piece, w);
-  r.m12 = r.hyp.flow_n * r.inv + w_a * r.c.normal_slope * r.hyp.normal;
-  r.m22 = tau_s * T(r.inv + w_a * r.c.shear_slope);
+  r.m12 = r.hyp.flow_n * r.inv + w_a * r.c.normal_drag * r.hyp.normal;
+  r.m22 = tau_s * T(r.inv + w_a * r.c.shear_drag);
   r.ratio = r.c.normal * r.inverse_cs;
   r.h = r.m12;
   for (int k = 0; k < NS; ++k) r.h -= r.ratio * r.normal_s[k] * r.m22[k];
@@ -129,10 +109,14 @@ template <class T, int NS>
 
 /// Jacobian d(f)/d(tau_s, a) of the rates f: J = -M^-1 (dM/dy . f) with the coefficient matrix M of the rate equations.
 template <class T, int NS, class Law>
-[[nodiscard]] Mat<T, NS + 1, NS + 1> rate_jacobian(const Law& law, const Branch& branch, const RatePoint<T, NS>& r,
-                                                   const Vec<T, NS>& tau_s, const Rates<T, NS>& f) {
+[[nodiscard]] Mat<T, NS + 1, NS + 1> rate_jacobian(const Zone<Law>& zone, const Branch& branch,
+                                                   const RatePoint<T, NS>& r, const Vec<T, NS>& tau_s,
+                                                   const Rates<T, NS>& f) {
+  const Law& law = zone.law;
   const T w_a = law.softening.slope(branch.piece, r.w);
   const T w_aa = law.softening.curvature(branch.piece, r.w);
+  const T drag_n = w_a * w_a * zone.normal_law(branch.tension).drag_slope();  // w_a d(drag)/da
+  const T drag_s = w_a * w_a * zone.shear_law().drag_slope();
   const typename Law::Scalar flow_slope = law.surface.flow_slope();
   T s_dot = T(0.0);
   T g_dot = T(0.0);
@@ -152,14 +136,16 @@ template <class T, int NS, class Law>
       const T fraction_j = (flow_j * r.shear - r.hyp.flow_n * r.unit[j]) * inv2;
       const T inv_j = -(flow_j + r.unit[j]) * inv2;
       dn = r.c.normal * slope * (f.tau_s[j] - tau_s[j] * s_dot * bend) +
-           f.a * (fraction_j + w_a * r.c.normal_slope * r.normal_s[j]);
+           f.a * (fraction_j + w_a * r.c.normal_drag * r.normal_s[j]);
       for (int k = 0; k < NS; ++k) {
         ds[k] = f.a * tau_s[k] * inv_j;
-        if (k == j) ds[k] += f.a * (r.inv + w_a * r.c.shear_slope);
+        if (k == j) ds[k] += f.a * (r.inv + w_a * r.c.shear_drag);
       }
     } else {
-      dn = r.c.normal_slope * w_a * g_dot + f.a * w_aa * r.c.normal_slope * r.hyp.normal;
-      for (int k = 0; k < NS; ++k) ds[k] = w_a * r.c.shear_slope * f.tau_s[k] + f.a * w_aa * r.c.shear_slope * tau_s[k];
+      dn = r.c.normal_slope * w_a * g_dot + f.a * w_aa * r.c.normal_drag * r.hyp.normal + f.a * drag_n * r.hyp.normal;
+      for (int k = 0; k < NS; ++k) {
+        ds[k] = w_a * r.c.shear_slope * f.tau_s[k] + f.a * w_aa * r.c.shear_drag * tau_s[k] + f.a * drag_s * tau_s[k];
+      }
     }
     const Rates<T, NS> column = solve_rates<T, NS>(r, T(-dn), Vec<T, NS>(-ds));
     for (int k = 0; k < NS; ++k) jac(k, j) = column.tau_s[k];
@@ -168,13 +154,35 @@ template <class T, int NS, class Law>
   return jac;
 }
 
-/// First fraction in [0, 1] at which the elastic motion q0 + x dq reaches the yield surface, or a negative value.
-/// Scaled tractions in tension, plain ones in compression, so that w = 0 is no special case; the path has a kink where
-/// q_n = 0. The elastic domain is convex, so a straight piece that ends inside never left it.
+/// yield_entry() of the consistent zone: the traction goes straight on, tension or not.
+template <int Dim, class T, class Law>
+[[nodiscard]] FPZ_INLINE T yield_entry_without_kink(const Zone<Law>& zone, const T& w, const Vec<T, Dim>& q0,
+                                                    const Vec<T, Dim>& dq) {
+  constexpr int NS = Dim - 1;
+  const Vec<T, Dim> e = elastic_compliance<T, Dim>(zone, w);
+  const T n = q0[0] / e[0];
+  const T dn = dq[0] / e[0];
+  Vec<T, NS> s, ds;
+  Vec<double, NS> s_end;
+  for (int k = 0; k < NS; ++k) {
+    s[k] = q0[k + 1] / e[k + 1];
+    ds[k] = dq[k + 1] / e[k + 1];
+    s_end[k] = value(s[k]) + value(ds[k]);
+  }
+  const auto& surface = zone.law.surface;
+  if (surface.template contains<NS>(value(w), value(n) + value(dn), s_end)) return T(-1.0);
+  const T x = surface.template exit_fraction<NS>(w, n, s, dn, ds);
+  return value(x) >= 0.0 && value(x) <= 1.0 ? x : T(-1.0);
+}
+
+/// First fraction in [0, 1] at which the elastic motion q0 + x dq reaches the yield surface, or a negative value. In
+/// the published zone scaled tractions in tension, plain ones in compression, so that w = 0 is no special case; the
+/// path has a kink where q_n = 0. The elastic domain is convex, so a straight piece that ends inside never left it.
 template <int Dim, class T, class Law>
 [[nodiscard]] FPZ_INLINE T yield_entry(const Zone<Law>& zone, const T& w, const Vec<T, Dim>& q0,
                                        const Vec<T, Dim>& dq) {
   constexpr int NS = Dim - 1;
+  if (!has_contact_kink(zone.law.zone)) return yield_entry_without_kink<Dim>(zone, w, q0, dq);
   const auto& surface = zone.law.surface;
   bool tension = value(q0[0]) > 0.0 || (value(q0[0]) == 0.0 && value(dq[0]) >= 0.0);
   const double end_n = value(q0[0]) + value(dq[0]);

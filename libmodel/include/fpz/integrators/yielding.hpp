@@ -21,9 +21,94 @@ inline constexpr double largest_softening_step = 1.0;
 /// Integrity below which the energy that is left does not count.
 inline constexpr double negligible_integrity = 1e-14;
 
+/// In the consistent zone tau_s stays known to this part of its size: where closed faces of a separated zone open, the
+/// point runs over the tip of the yield surface, which is tiny in t.
+inline constexpr double largest_shear_error = 0.1;
+
 /// What ends a smooth branch.
 enum class YieldEvent : int { unloading, normal_sign, shear_sign, softening_kink };
 inline constexpr int yield_event_count = 4;
+
+/// Whether a point of the consistent zone is in friction. As w falls tau = t/w grows beyond bounds there, while t
+/// stays.
+template <class Law, class Point>
+[[nodiscard]] bool slides_on_closed_faces(const Law& law, const Point& r) {
+  return law.zone == CohesiveZone::consistent && value(r.hyp.normal) < 0.0;
+}
+
+/// Whether the smooth continuation of |tau_s| beyond its zero still means something: not where m_n + |tau_s| nears
+/// zero. The shear of a separated consistent zone is fast enough to get there in one step.
+template <class Law, class Point>
+[[nodiscard]] bool is_within_branch(const Law& law, const Point& r) {
+  return law.zone == CohesiveZone::published || value(r.shear) > -0.5 * value(r.hyp.flow_n);
+}
+
+/// w and its slope as functions of the inelastic displacement a of a phase.
+template <class T, class Law>
+struct PhaseSoftening {
+  const Law& law;
+  int piece;
+  const T& w_begin;
+
+  /// On the smooth continuation of the piece: what tells where it ends.
+  [[nodiscard]] T continued(const T& a) const { return law.softening.after(piece, w_begin, a); }
+  [[nodiscard]] T w(const T& a) const {
+    const T left = continued(a);
+    const double floor = integrity_floor(law.zone);
+    return floor > 0.0 && value(left) < floor ? T(floor) : left;
+  }
+  [[nodiscard]] T slope(const T& w) const { return law.softening.slope(piece, w); }
+  [[nodiscard]] T curvature(const T& w) const { return law.softening.curvature(piece, w); }
+};
+
+/// A RODAS step of y = (tau_s, a, ..) taken in the unscaled traction t_s = w tau_s. `jacobian` and `rates` are those of
+/// y.
+template <class T, int NS, int N, class Curve, class F>
+[[nodiscard]] RodasStep<T, N> unscaled_step(const Curve& curve, const Vec<T, N>& y0, const Vec<T, N>& f0,
+                                            const Mat<T, N, N>& jacobian, const T& h, const F& rates) {
+  const T w = curve.w(y0[NS]);
+  const T w_a = curve.slope(w);
+  const T w_aa = curve.curvature(w);
+  Vec<T, N> x0 = y0;
+  Vec<T, N> g0 = f0;
+  for (int k = 0; k < NS; ++k) {
+    x0[k] = w * y0[k];
+    g0[k] = w * f0[k] + w_a * f0[NS] * y0[k];
+  }
+  // Rows: of w tau' + w_a a' tau. Columns: tau = t/w.
+  Mat<T, N, N> j = jacobian;
+  for (int k = 0; k < NS; ++k) {
+    for (int c = 0; c < N; ++c) j(k, c) = w * jacobian(k, c) + w_a * jacobian(NS, c) * y0[k];
+    j(k, k) += w_a * f0[NS];
+    j(k, NS) += w_a * f0[k] + w_aa * f0[NS] * y0[k];
+  }
+  for (int r = 0; r < N; ++r) {
+    for (int k = 0; k < NS; ++k) {
+      j(r, k) /= w;
+      j(r, NS) -= j(r, k) * w_a * y0[k];
+    }
+  }
+  RodasStep<T, N> out = rodas_step<T, N>(
+      x0, g0, j, h,
+      [&](const Vec<T, N>& x, Vec<T, N>& g) {
+        Vec<T, N> y = x;
+        const T wx = curve.w(x[NS]);
+        for (int k = 0; k < NS; ++k) y[k] = x[k] / wx;
+        if (!rates(y, g)) return false;
+        const T slope = curve.slope(wx);
+        for (int k = 0; k < NS; ++k) g[k] = wx * g[k] + slope * g[NS] * y[k];
+        return true;
+      },
+      true);
+  const T end = curve.w(out.y[NS]);
+  const T middle = curve.w(out.middle[NS]);
+  for (int k = 0; k < NS; ++k) {
+    out.y[k] /= end;
+    out.error[k] /= end;
+    out.middle[k] /= middle;
+  }
+  return out;
+}
 
 /// One yielding phase: state y = (tau_s, a) relative to the integrity at its begin, driven at the constant rate `rate`
 /// (m per unit of the increment).
@@ -44,12 +129,12 @@ class YieldingPhase {
   Branch branch;
 
   [[nodiscard]] const Law& law() const { return zone_.law; }
+  [[nodiscard]] PhaseSoftening<T, Law> softening() const { return {law(), branch.piece, w_begin_}; }
   [[nodiscard]] const Shear& rate_s() const { return rate_s_; }
   [[nodiscard]] double begin_integrity() const { return value(w_begin_); }
 
   [[nodiscard]] Point point(const Y& y) const {
-    const T w = law().softening.after(branch.piece, w_begin_, y[NS]);
-    return rate_point<NS>(zone_, branch, Shear(y.template head<NS>()), w, rate_s_);
+    return rate_point<NS>(zone_, branch, Shear(y.template head<NS>()), softening().w(y[NS]), rate_s_);
   }
   /// Whether the rate problem has one solution (no snap-back).
   [[nodiscard]] bool solvable(const Point& r) const { return value(r.h) > 0.0; }
@@ -71,13 +156,17 @@ class YieldingPhase {
     Rates<T, NS> f;
     f.tau_s = f0.template head<NS>();
     f.a = f0[NS];
-    return rodas_step<T, N>(y0, f0, rate_jacobian(law(), branch, r0, Shear(y0.template head<NS>()), f), h,
-                            [&](const Y& y, Y& out) {
-                              const Point r = point(y);
-                              if (!solvable(r)) return false;
-                              out = rates(r);
-                              return true;
-                            });
+    const Mat<T, N, N> jacobian = rate_jacobian(zone_, branch, r0, Shear(y0.template head<NS>()), f);
+    const auto rates_at = [&](const Y& y, Y& out) {
+      const Point r = point(y);
+      if (!solvable(r) || !is_within_branch(law(), r)) return false;
+      out = rates(r);
+      return true;
+    };
+    if (!slides_on_closed_faces(law(), r0)) {
+      return rodas_step<T, N>(y0, f0, jacobian, h, rates_at, law().zone == CohesiveZone::consistent);
+    }
+    return unscaled_step<T, NS>(softening(), y0, f0, jacobian, h, rates_at);
   }
 
   /// Error of a step against the tolerance on t/sigma_t0 and D. When w -> 0 the traction vanishes, but the scaled
@@ -89,7 +178,8 @@ class YieldingPhase {
     const double open = value(law().flexibility_n);
     const double bulk = value(zone_.series.normal);
     const double level = (std::abs(value(r.hyp.normal)) + value(r.shear)) / strength;
-    const double contact = (open + w * bulk) / ((open + bulk) * (1.0 + level));
+    const double reach = value(zone_.normal_law(true).at(r.w));
+    const double contact = reach / ((open + bulk) * (1.0 + level));
     const double weight = std::max(w, contact) / strength;
     double shear2 = 0.0;
     double normal = 0.0;
@@ -97,17 +187,19 @@ class YieldingPhase {
       shear2 += value(error[k]) * value(error[k]);
       normal += value(r.normal_s[k]) * value(error[k]);
     }
-    const double damage_error =
-        law().softening.loss(branch.piece, w, std::abs(value(error[NS]))) * std::max(1.0, level);
+    // An error of w changes t by tau times it, unless the step is one of t itself.
+    const double per_damage = slides_on_closed_faces(law(), r) ? 1.0 : std::max(1.0, level);
+    const double damage_error = law().softening.loss(branch.piece, w, std::abs(value(error[NS]))) * per_damage;
     return std::max({std::sqrt(shear2) * weight, std::abs(normal) * weight, damage_error});
   }
 
   /// Smooth functions that are positive while the branch holds.
-  [[nodiscard]] T event(YieldEvent which, const Point& r) const {
+  [[nodiscard]] T event(YieldEvent which, const Y& y, const Point& r) const {
     switch (which) {
       case YieldEvent::unloading:
         return loading_at(r);
       case YieldEvent::normal_sign:
+        if (!has_contact_kink(law().zone)) return T(1.0);
         return branch.tension ? r.hyp.normal : T(-r.hyp.normal);
       case YieldEvent::shear_sign:
         return NS == 1 && branch.shear ? r.shear : T(1.0);
@@ -115,7 +207,7 @@ class YieldingPhase {
         break;
     }
     const auto end = law().softening.piece_end(branch.piece);
-    return value(end) < 0.0 ? T(1.0) : T(r.w - end);
+    return value(end) < 0.0 ? T(1.0) : T(softening().continued(y[NS]) - end);
   }
 
   /// Dissipated energy per unit of the softening's measure, and per unit of the drive at an inelastic rate a'.
@@ -170,10 +262,13 @@ template <class Phase>
                                                   const typename Phase::Point& r0, const typename Phase::Y& f0,
                                                   double h, YieldEvent which) {
   using T = typename Phase::Scalar;
-  const auto at = [&](const T& x) { return phase.event(which, phase.point(phase.advance(y0, r0, f0, x).y)); };
+  const auto at = [&](const T& x) {
+    const typename Phase::Y y = phase.advance(y0, r0, f0, x).y;
+    return phase.event(which, y, phase.point(y));
+  };
   double lo = 0.0;
   double hi = h;
-  double e_lo = value(phase.event(which, r0));
+  double e_lo = value(phase.event(which, y0, r0));
   double e_hi = value(at(T(h)));
   const double scale = std::max(std::abs(e_lo), std::abs(e_hi));
   double x = h;
@@ -213,9 +308,56 @@ struct Station {
   typename Phase::Y f;  ///< rates
 };
 
-/// Energy dissipated in an accepted step of length h, J/m^2. Fourth order, as the solution is, from the ends and the
-/// cubic Hermite mid-point: Simpson's rule, or, where the step softens noticeably, the quadratic through the three
-/// points as a function of w, which is exact for pure opening.
+/// What an accepted step adds to the sums of a state.
+template <class T>
+struct StepSums {
+  T dissipated;  ///< J/m^2
+  T slip;        ///< m; only of a zone in which it does not follow from the plastic jump
+};
+
+/// The sums of a step of the consistent zone: t.flow and the shear part of the flow over the inelastic displacement a.
+/// Fourth order, as the solution is, from the ends and the `middle`: Simpson's rule, or, where the step softens
+/// noticeably, the quadratic through the three points as a function of w (energy) or of a (slip). The first is exact
+/// where tau is constant, as in pure opening, and where t is, as in friction.
+template <class Phase>
+[[nodiscard]] StepSums<typename Phase::Scalar> consistent_sums(const Phase& phase, const Station<Phase>& a,
+                                                               const typename Phase::Y& middle, const Station<Phase>& b,
+                                                               const typename Phase::Scalar& h) {
+  using T = typename Phase::Scalar;
+  constexpr int NS = Phase::NS;
+  const auto& law = phase.law();
+  const typename Phase::Point m = phase.point(middle);
+  const auto power = [&](const typename Phase::Point& r) {
+    return T(r.w * dissipation(law, r.hyp, r.shear, r.inv).plastic);
+  };
+  const auto share = [](const typename Phase::Point& r) { return T(r.shear * r.inv); };
+  const T p[] = {power(a.r), power(m), power(b.r)};
+  const T s[] = {share(a.r), share(m), share(b.r)};
+  const T whole = b.y[NS] - a.y[NS];
+  const bool settled = phase.branch.piece == settled_piece;
+  if (settled || value(whole) < 1e-2 * value(law.softening.length())) {  // differences of w would lose digits
+    const T rates[] = {a.f[NS], 4.0 * phase.rates(m)[NS], b.f[NS]};
+    StepSums<T> sum{T(0.0), T(0.0)};
+    for (int k = 0; k < 3; ++k) {
+      sum.dissipated += rates[k] * p[k] * T(h / 6.0);
+      sum.slip += rates[k] * s[k] * T(h / 6.0);
+    }
+    return sum;
+  }
+  const SofteningMoments<T> w = law.softening.moments(phase.branch.piece, a.r.w, b.r.w, whole);
+  const T first = (p[1] - p[0]) / (m.w - a.r.w);
+  const T second = ((p[2] - p[1]) / (b.r.w - m.w) - first) / (b.r.w - a.r.w);
+  const T to_first = w.first - a.r.w * whole;
+  const T to_second = w.second - (a.r.w + m.w) * w.first + a.r.w * m.w * whole;
+  const T x = (middle[NS] - a.y[NS]) / whole;
+  const T y = 1.0 - x;
+  return {T(p[0] * whole + first * to_first + second * to_second),
+          T(whole / 6.0 * ((2.0 - y / x) * s[0] + s[1] / (x * y) + (2.0 - x / y) * s[2]))};
+}
+
+/// Energy dissipated in an accepted step of length h of the published zone, J/m^2. Fourth order, as the solution is,
+/// from the ends and the cubic Hermite mid-point: Simpson's rule, or, where the step softens noticeably, the quadratic
+/// through the three points as a function of w, which is exact for pure opening.
 template <class Phase>
 [[nodiscard]] typename Phase::Scalar step_dissipation(const Phase& phase, const Station<Phase>& a,
                                                       const Station<Phase>& b, const typename Phase::Scalar& h) {
@@ -238,17 +380,38 @@ template <class Phase>
   return whole * softening.measure() * sum / 6.0;
 }
 
+template <class Phase>
+[[nodiscard]] StepSums<typename Phase::Scalar> step_sums(const Phase& phase, const Station<Phase>& a,
+                                                         const typename Phase::Y& middle, const Station<Phase>& b,
+                                                         const typename Phase::Scalar& h) {
+  using T = typename Phase::Scalar;
+  if (phase.law().zone == CohesiveZone::consistent) return consistent_sums(phase, a, middle, b, h);
+  return {step_dissipation(phase, a, b, h), T(0.0)};
+}
+
 /// How a yielding phase ended.
 template <class Phase>
 struct Yielded {
   using T = typename Phase::Scalar;
   Status status = Status::ok;
   typename Phase::Y y = Phase::Y::Constant(T(0.0));
-  T position = T(0.0);    ///< of the drive
-  T dissipated = T(0.0);  ///< J/m^2
+  T position = T(0.0);  ///< of the drive
+  StepSums<T> sums{T(0.0), T(0.0)};
   bool unloaded = false;  ///< it left the surface before the end
   bool kinked = false;    ///< the softening law goes on with its next piece
 };
+
+/// The error of a step in units of what is allowed.
+template <class Phase>
+[[nodiscard]] double error_of(const Phase& phase, const typename Phase::Point& r, const typename Phase::Y& error,
+                              double tolerance) {
+  const double e = phase.error_norm(r, error) / tolerance;
+  if (phase.law().zone == CohesiveZone::published) return e;
+  double shear2 = 0.0;
+  for (int k = 0; k < Phase::NS; ++k) shear2 += value(error[k]) * value(error[k]);
+  const double size = value(r.shear) + value(phase.law().surface.apex);
+  return std::max(e, std::sqrt(shear2) / (largest_shear_error * size));
+}
 
 /// Runs one yielding phase from the position `from` of the drive until `end`, or until the point unloads or reaches a
 /// kink of the softening law.
@@ -281,14 +444,15 @@ template <class Phase>
     ++report.iterations;
     // 1. A step within the tolerance that does not soften too far.
     auto trial = phase.advance(at.y, at.r, at.f, h);
-    const double error = trial.defined ? phase.error_norm(at.r, trial.error) / tolerance : 1e9;
+    const double error = trial.defined ? error_of<Phase>(phase, at.r, trial.error, tolerance) : 1e9;
     if (!(error <= 1.0)) {
       step = value(h) * std::max(0.1, 0.9 * std::pow(error, -0.25));
       if (step < smallest) return stop(phase.failure(at.r));
       continue;
     }
     const double softening = (value(trial.y[NS]) - value(at.y[NS])) / length;
-    if (softening > largest_softening_step && value(at.r.w) > negligible_integrity) {
+    if (softening > largest_softening_step && value(at.r.w) > negligible_integrity &&
+        phase.branch.piece != settled_piece) {
       step = value(h) * 0.9 * largest_softening_step / softening;
       continue;
     }
@@ -303,19 +467,22 @@ template <class Phase>
     double earliest = value(h);
     for (int k = 0; k < yield_event_count; ++k) {
       const auto which = static_cast<YieldEvent>(k);
-      if (value(phase.event(which, next.r)) >= 0.0) continue;
+      if (value(phase.event(which, next.y, next.r)) >= 0.0) continue;
       const T x = locate_event(phase, at.y, at.r, at.f, value(h), which);
       if (value(x) <= earliest) {
         earliest = value(x);
         fired = k;
-        next.y = phase.advance(at.y, at.r, at.f, x).y;
+        trial = phase.advance(at.y, at.r, at.f, x);
+        next.y = trial.y;
         next.r = phase.point(next.y);
         h = x;
       }
     }
     // 3. Accepted.
     next.f = phase.rates(next.r);
-    out.dissipated += step_dissipation(phase, at, next, h);
+    const StepSums<T> sums = step_sums<Phase>(phase, at, trial.middle, next, h);
+    out.sums.dissipated += sums.dissipated;
+    out.sums.slip += sums.slip;
     position = last && fired < 0 ? T(end) : T(position + h);
     ++report.substeps;
     at = next;
@@ -340,8 +507,8 @@ template <class Phase>
 }
 
 /// Puts a zone to the end of a yielding phase, where y = (tau_s, a, ..) and the drive is `drive`: the surface and
-/// continuity give the plastic jump; a = d(up_n) + d(slip) gives the slip (eq 47). A kink of the softening law is met
-/// exactly. The jump is left to the caller.
+/// continuity give the plastic jump; a = d(up_n) + d(slip) gives the slip (eq 47) in the published zone. A kink of the
+/// softening law is met exactly. The jump is left to the caller.
 template <int Dim, class Phase>
 void end_yielding(CohesiveState<typename Phase::Scalar, Dim>& z, const Vec<typename Phase::Scalar, Dim>& drive,
                   const Phase& phase, const Yielded<Phase>& yielded) {
@@ -349,7 +516,8 @@ void end_yielding(CohesiveState<typename Phase::Scalar, Dim>& z, const Vec<typen
   constexpr int NS = Phase::NS;
   const typename Phase::Point r = phase.point(yielded.y);
   const T normal = drive[0] + z.offset[0] - r.c.normal * r.hyp.normal;
-  const T slip = yielded.y[NS] - (normal - z.plastic_jump[0]);
+  const T slip = phase.law().zone == CohesiveZone::consistent ? yielded.sums.slip
+                                                              : T(yielded.y[NS] - (normal - z.plastic_jump[0]));
   if (value(slip) > 0.0) z.slip += slip;  // rounding of a pure opening must not make it negative
   z.plastic_jump[0] = normal;
   z.traction[0] = r.w * r.hyp.normal;
@@ -358,7 +526,7 @@ void end_yielding(CohesiveState<typename Phase::Scalar, Dim>& z, const Vec<typen
     z.traction[k] = r.w * yielded.y[k - 1];
   }
   z.integrity = yielded.kinked ? T(phase.law().softening.piece_end(phase.branch.piece)) : r.w;
-  z.dissipated += yielded.dissipated;
+  z.dissipated += yielded.sums.dissipated;
 }
 
 }  // namespace fpz::detail

@@ -20,10 +20,16 @@ struct Zone {
 
   Zone(const Law& l, const SeriesCompliance<P>& s) : law(l), series(s) {}
 
-  /// c_s(w), m/Pa.
+  /// c_n(w) and c_s(w), m/Pa.
+  [[nodiscard]] FPZ_INLINE ComplianceLaw<P> normal_law(bool tension) const {
+    return normal_compliance(law.zone, law.flexibility_n, series.normal, tension);
+  }
+  [[nodiscard]] FPZ_INLINE ComplianceLaw<P> shear_law() const {
+    return fpz::shear_compliance(law.zone, law.flexibility_s, series.shear);
+  }
   template <class T>
   [[nodiscard]] FPZ_INLINE T shear_compliance(const T& w) const {
-    return law.flexibility_s + w * series.shear;
+    return shear_law().at(w);
   }
 };
 
@@ -36,32 +42,43 @@ struct Drive {
 
 namespace detail {
 
-/// Compliances that multiply the scaled traction: c_n = 1/Kn + w b_n in tension and w (1/Kn + b_n) in compression
-/// (eq 46: P = 1 there), c_s = 1/Ks + w b_s.
+/// Compliances that multiply the scaled traction (law/unloading.hpp; eq 46: in compression P = 1).
 template <class T>
 struct ScaledCompliance {
   T normal;
   T shear;
   T normal_slope;  ///< d c_n / d w
   T shear_slope;   ///< d c_s / d w
+  T normal_drag;   ///< coefficients of tau dw: the slopes, but for the reversible work of the consistent zone
+  T shear_drag;
 };
 
 template <class T, class Law>
 [[nodiscard]] FPZ_INLINE ScaledCompliance<T> scaled_compliance(const Zone<Law>& zone, const T& w, bool tension) {
-  const T flexibility = T(zone.law.flexibility_n);
-  ScaledCompliance<T> c;
-  c.normal = tension ? T(flexibility + w * zone.series.normal) : T(w * (flexibility + zone.series.normal));
-  c.normal_slope = tension ? T(zone.series.normal) : T(flexibility + zone.series.normal);
-  c.shear = zone.shear_compliance(w);
-  c.shear_slope = T(zone.series.shear);
-  return c;
+  const auto n = zone.normal_law(tension);
+  const auto s = zone.shear_law();
+  return {n.at(w), s.at(w), n.slope(w), s.slope(w), n.drag(w), s.drag(w)};
 }
 
-/// Elastic traction t = P K (u + u0 - up) with traction continuity satisfied, for q = d + u0 - up (eq 40, 44-46). Every
-/// operation is diagonal in the local frame.
+/// t = q/e(w) of the consistent zone: e = b + (1 - w)/K, m/Pa.
+template <class T, int Dim, class Law>
+[[nodiscard]] FPZ_INLINE Vec<T, Dim> elastic_compliance(const Zone<Law>& zone, const T& w) {
+  Vec<T, Dim> e;
+  e[0] = zone.series.normal + (1.0 - w) * zone.law.flexibility_n;
+  for (int k = 1; k < Dim; ++k) e[k] = zone.series.shear + (1.0 - w) * zone.law.flexibility_s;
+  return e;
+}
+
+/// Elastic traction with continuity satisfied, for q = d + u0 - up (eq 40): t = P K (u + u0 - up) of eq 44-46, or of
+/// u - up = D K^-1 t. Every operation is diagonal in the local frame.
 template <class T, int Dim, class Law>
 [[nodiscard]] FPZ_INLINE Vec<T, Dim> elastic_traction(const Zone<Law>& zone, const T& w, const Vec<T, Dim>& q) {
   Vec<T, Dim> t;
+  if (zone.law.zone == CohesiveZone::consistent) {
+    const Vec<T, Dim> e = elastic_compliance<T, Dim>(zone, w);
+    for (int k = 0; k < Dim; ++k) t[k] = q[k] / e[k];
+    return t;
+  }
   t[0] = value(q[0]) >= 0.0 ? T(w * q[0] / (zone.law.flexibility_n + w * zone.series.normal))
                             : T(q[0] / (zone.law.flexibility_n + zone.series.normal));
   const T shear = w / zone.shear_compliance(w);

@@ -77,6 +77,11 @@ struct BilinearSoftening {
     return 0.5 * (d0.plastic + d1.plastic) * area_between(w0, w1) + 0.5 * (d0.damage + d1.damage) * (w0 - w1);
   }
 
+  template <class T>
+  [[nodiscard]] SofteningMoments<T> moments(int, const T& w0, const T& w1, const T& kappa) const {
+    return {T(0.5 * (w0 + w1) * kappa), T((w0 * w0 + w0 * w1 + w1 * w1) * kappa / 3.0)};
+  }
+
   [[nodiscard]] P length() const { return delta0; }
   [[nodiscard]] P shortest_length() const { return delta0 / first_fall; }
   [[nodiscard]] P area() const { return delta0; }

@@ -4,6 +4,7 @@
 
 #include "fpz/law/hyperbola.hpp"
 #include "fpz/law/softening.hpp"
+#include "fpz/law/unloading.hpp"
 
 namespace fpz {
 
@@ -14,7 +15,7 @@ struct CohesiveLaw {
   using Scalar = P;
   using Surface = SurfaceLaw;
 
-  P kn{};             ///< Kn, Pa/m
+  P kn{};             ///< Kn, Pa/m, as in use (unloading_stiffness())
   P ks{};             ///< Ks, Pa/m
   P flexibility_n{};  ///< 1/Kn, m/Pa
   P flexibility_s{};  ///< 1/Ks, m/Pa
@@ -23,8 +24,14 @@ struct CohesiveLaw {
   CohesiveZone zone{};
 
   [[nodiscard]] static CohesiveLaw make(const BasicParameters<P>& p) {
-    return {p.normal_stiffness,  p.shear_stiffness,     1.0 / p.normal_stiffness, 1.0 / p.shear_stiffness,
-            SurfaceLaw::make(p), SofteningLaw::make(p), p.choices.cohesive_zone};
+    const UnloadingStiffness<P> k = unloading_stiffness(p);
+    return {k.normal,
+            k.shear,
+            1.0 / k.normal,
+            1.0 / k.shear,
+            SurfaceLaw::make(p),
+            SofteningLaw::make(p),
+            p.choices.cohesive_zone};
   }
 };
 

@@ -63,6 +63,11 @@ struct ExponentialSoftening {
     return 0.5 * (d0.plastic + d0.damage * value(inverse_delta0) + density(0, w1, d1)) * delta0 * (w0 - w1);
   }
 
+  template <class T>
+  [[nodiscard]] SofteningMoments<T> moments(int, const T& w0, const T& w1, const T&) const {
+    return {T(delta0 * (w0 - w1)), T(0.5 * delta0 * (w0 - w1) * (w0 + w1))};
+  }
+
   [[nodiscard]] P length() const { return delta0; }
   [[nodiscard]] P shortest_length() const { return delta0; }
   [[nodiscard]] P area() const { return delta0; }

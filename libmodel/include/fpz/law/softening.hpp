@@ -17,6 +17,8 @@
 //                          product.
 //   dissipated(d0, d1, w0, w1)  energy lost from w0 to w1 (J/m^2), trapezoidal in the parts of the dissipation; exact
 //                          where these are constant, as in a pure opening
+//   moments(piece, w0, w1, kappa)  integrals of w and w^2 over d(kappa) while w falls from w0 to w1 by `kappa` on one
+//                          piece: exact sums of what is smooth in w
 //   length()               a displacement over which the law softens noticeably, for step sizes and tolerances (m)
 //   shortest_length()      1 over the steepest -dw/d(kappa) (m): decides on snap-back
 //   area()                 integral of w d(kappa) to the end (m), area_to(kappa) the part up to kappa: mode I fracture
@@ -32,6 +34,7 @@
 
 #include "fpz/law/bilinear.hpp"
 #include "fpz/law/exponential.hpp"
+#include "fpz/law/unloading.hpp"
 
 namespace fpz {
 
@@ -39,14 +42,18 @@ namespace fpz {
 template <class P>
 using SofteningLaws = std::variant<ExponentialSoftening<P>, BilinearSoftening<P>>;
 
-/// The law of a material, chosen at run time: it passes every question on to the one that it holds.
+/// The piece on which nothing softens any more, because the zone has come to its least integrity (unloading.hpp).
+inline constexpr int settled_piece = 1000;
+
+/// The law of a material, chosen at run time: it passes every question on to the one that it holds, down to `floor`.
 template <class P>
 struct Softening {
   SofteningLaws<P> law;
+  double floor = 0.0;  ///< least integrity; 0: none
 
   [[nodiscard]] static Softening make(const BasicParameters<P>& p) { return make_from(p); }
   [[nodiscard]] Softening<double> values() const {
-    return visit([](const auto& s) { return Softening<double>{s.values()}; });
+    return visit([this](const auto& s) { return Softening<double>{s.values(), floor}; });
   }
 
   /// f(law) for the law that is held; all alternatives must give one type.
@@ -61,32 +68,41 @@ struct Softening {
   }
 
   [[nodiscard]] int piece(double w) const {
+    if (w <= floor && floor > 0.0) return settled_piece;
     return visit([&](const auto& s) { return s.piece(w); });
   }
   [[nodiscard]] P piece_end(int k) const {
-    return visit([&](const auto& s) { return s.piece_end(k); });
+    if (k == settled_piece) return P(-1.0);
+    const P end = visit([&](const auto& s) { return s.piece_end(k); });
+    return value(end) < floor && floor > 0.0 ? P(floor) : end;
   }
   template <class T>
   [[nodiscard]] FPZ_INLINE T after(int k, const T& w, const T& kappa) const {
+    if (k == settled_piece) return w;
     return visit([&](const auto& s) { return s.after(k, w, kappa); });
   }
   template <class T>
   [[nodiscard]] FPZ_INLINE T after(const T& w, const T& kappa) const {
-    return visit([&](const auto& s) { return s.after(w, kappa); });
+    const T left = visit([&](const auto& s) { return s.after(w, kappa); });
+    return value(left) < floor ? T(floor) : left;
   }
   template <class T>
   [[nodiscard]] FPZ_INLINE T slope(int k, const T& w) const {
+    if (k == settled_piece) return T(0.0);
     return visit([&](const auto& s) { return s.slope(k, w); });
   }
   template <class T>
   [[nodiscard]] FPZ_INLINE T curvature(int k, const T& w) const {
+    if (k == settled_piece) return T(0.0);
     return visit([&](const auto& s) { return s.curvature(k, w); });
   }
   template <class T>
   [[nodiscard]] T local_length(int k, const T& w) const {
+    if (k == settled_piece) return T(unbounded);
     return visit([&](const auto& s) { return s.local_length(k, w); });
   }
   [[nodiscard]] double loss(int k, double w, double kappa) const {
+    if (k == settled_piece) return 0.0;
     return visit([&](const auto& s) { return s.loss(k, w, kappa); });
   }
   [[nodiscard]] P measure() const {
@@ -104,6 +120,11 @@ struct Softening {
   [[nodiscard]] FPZ_INLINE T dissipated(const Dissipation<double>& d0, const Dissipation<T>& d1, const T& w0,
                                         const T& w1) const {
     return visit([&](const auto& s) { return s.dissipated(d0, d1, w0, w1); });
+  }
+  template <class T>
+  [[nodiscard]] SofteningMoments<T> moments(int k, const T& w0, const T& w1, const T& kappa) const {
+    if (k == settled_piece) return {T(w0 * kappa), T(w0 * w0 * kappa)};
+    return visit([&](const auto& s) { return s.moments(k, w0, w1, kappa); });
   }
   [[nodiscard]] P length() const {
     return visit([](const auto& s) { return s.length(); });
@@ -125,7 +146,7 @@ struct Softening {
     if constexpr (I + 1 < std::variant_size_v<SofteningLaws<P>>) {
       if (p.choices.softening != static_cast<SofteningKind>(I)) return make_from<I + 1>(p);
     }
-    return {std::variant_alternative_t<I, SofteningLaws<P>>::make(p)};
+    return {std::variant_alternative_t<I, SofteningLaws<P>>::make(p), integrity_floor(p.choices.cohesive_zone)};
   }
 };
 
