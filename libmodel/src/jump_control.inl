@@ -13,6 +13,7 @@ class JumpPhase {
  public:
   using Scalar = double;
   using Law = CohesiveLaw<double>;
+  static constexpr bool follows_drive = false;
   static constexpr int NS = Dim - 1;
   static constexpr int N = NS + 2;
   using Y = Vec<double, N>;

@@ -1,11 +1,14 @@
 #include "fpz/parameters.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "fpz/law/softening.hpp"
+#include "fpz/law/unloading.hpp"
 
 namespace fpz {
 namespace {
@@ -29,6 +32,38 @@ double normal_modulus(const Parameters& p, Setting setting) {
   const double nu = p.poisson_ratio;
   if (setting == Setting::plane_stress) return e / (1.0 - nu * nu);
   return e * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu));
+}
+
+/// Smallest value of a convex function between lo and hi, by golden section.
+template <class F>
+double smallest(double lo, double hi, const F& f) {
+  const double part = 0.5 * (std::sqrt(5.0) - 1.0);
+  double best = std::min(f(lo), f(hi));
+  for (int k = 0; k < 80; ++k) {
+    const double a = hi - part * (hi - lo);
+    const double b = lo + part * (hi - lo);
+    best = std::min({best, f(a), f(b)});
+    (f(a) < f(b) ? hi : lo) = f(a) < f(b) ? b : a;
+  }
+  return best;
+}
+
+/// l of snap_back_length(). In the consistent zone h > 0 in mode I asks for b + (1 - 3 w/2)/Kn < 1/(sigma_t0 |dw/da|)
+/// at every w (docs/equations.md); what is left for b is a convex function of w on each piece of the softening.
+double critical_length(const Parameters& p) {
+  const auto softening = Softening<double>::make(p);
+  if (p.choices.cohesive_zone == CohesiveZone::published) return softening.shortest_length();
+  const double spring = p.tensile_strength / unloading_stiffness(p).normal;
+  double shortest = std::numeric_limits<double>::infinity();
+  double begin = 1.0;
+  for (int piece = softening.piece(begin); piece != settled_piece; piece = softening.piece(begin)) {
+    const double end = softening.piece_end(piece);
+    shortest = std::min(shortest, smallest(end, begin, [&](double w) {
+                          return -1.0 / softening.slope(piece, w) - spring * (1.0 - 1.5 * w);
+                        }));
+    begin = end;
+  }
+  return shortest;
 }
 
 class Checker {
@@ -69,7 +104,25 @@ std::string Validation::report() const {
 }
 
 double snap_back_length(const Parameters& p, Setting setting) {
-  return normal_modulus(p, setting) * Softening<double>::make(p).shortest_length() / p.tensile_strength;
+  return normal_modulus(p, setting) * critical_length(p) / p.tensile_strength;
+}
+
+OnsetPreload onset_preload(const Parameters& p) {
+  OnsetPreload most;
+  if (p.choices.cohesive_zone != CohesiveZone::published) return most;
+  // On the onset surface |t_s|^2 = (c0 - t_n tan(phi))^2 - A^2 the energy is a convex function of t_n: largest at an
+  // end.
+  const double tan_phi = std::tan(p.friction_angle_deg * degree);
+  const double apex = p.cohesion - p.tensile_strength * tan_phi;
+  for (const double normal : {p.tensile_strength, -p.cohesion}) {
+    const double radius = p.cohesion - normal * tan_phi;
+    const double shear = std::sqrt(std::max((radius - apex) * (radius + apex), 0.0));
+    const double opening = 0.5 * normal * normal / p.normal_stiffness;
+    const double slip = 0.5 * shear * shear / p.shear_stiffness;
+    const double ratio = (opening + slip) / (p.tensile_strength * p.delta0);
+    if (ratio > most.ratio) most = {ratio, normal, shear, opening > slip ? p.normal_stiffness : p.shear_stiffness};
+  }
+  return most;
 }
 
 double uniaxial_tensile_strength(const Parameters& p) {
@@ -125,7 +178,7 @@ Validation validate(const Parameters& p, Setting setting) {
     const double bound = snap_back_length(p, setting);
     if (p.rve_length >= bound) {
       const char* modulus = setting == Setting::plane_stress ? "E/(1 - nu^2)" : "(lambda + 2 mu)";
-      const double lengths = Softening<double>::make(p).shortest_length() / p.delta0;
+      const double lengths = critical_length(p) / p.delta0;
       const std::string length = lengths == 1.0 ? "delta0" : rounded(lengths) + " delta0";
       check.warn("rve_length", p.rve_length,
                  "should be < " + std::string(modulus) + " * " + length + " / tensile_strength = " + rounded(bound) +

@@ -91,6 +91,20 @@ inline Path<3> rotating_shear() {
   return p;
 }
 
+/// The paths with every form of the zone.
+template <int Dim>
+std::vector<Path<Dim>> in_every_zone(const std::vector<Path<Dim>>& paths) {
+  std::vector<Path<Dim>> all;
+  for (const Word<CohesiveZone>& zone : Words<CohesiveZone>::list) {
+    for (Path<Dim> p : paths) {
+      p.name += std::string(", ") + zone.text;
+      p.parameters.choices.cohesive_zone = zone.value;
+      all.push_back(p);
+    }
+  }
+  return all;
+}
+
 template <int Dim>
 Matrix3 to_matrix3(const Tensor<double, Dim>& a) {
   Matrix3 m = Matrix3::Zero();

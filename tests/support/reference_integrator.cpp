@@ -55,6 +55,9 @@ ReferenceIntegrator::ReferenceIntegrator(const Parameters& p, Setting setting, d
   const std::string softening = to_string(p.choices.softening);
   bilinear_ = softening == "bilinear";
   if (!bilinear_ && softening != "exponential") throw std::runtime_error("reference: no softening law " + softening);
+  const std::string zone = to_string(p.choices.cohesive_zone);
+  consistent_ = zone == "consistent";
+  if (!consistent_ && zone != "published") throw std::runtime_error("reference: no cohesive zone " + zone);
 }
 
 double ReferenceIntegrator::fall(double w, int piece) const {
@@ -188,6 +191,52 @@ double ReferenceIntegrator::yield(const Vector3& t, double w) const {
 }
 
 ReferenceIntegrator::Derivatives ReferenceIntegrator::rates(const Y& y, const Mode& mode) const {
+  return consistent_ ? consistent_rates(y, mode) : published_rates(y, mode);
+}
+
+/// du = dup + d(D K^-1 t) with dup = dlambda g - K^-1 t dD/2, and continuity dt + B du = drive, B the bulk's stiffness:
+///   (1 + B D/K) dt = drive - dlambda B (g + R t/(2 K)),  dD = R dlambda;  f = 0 stays: f_t.dt = f_w R dlambda.
+ReferenceIntegrator::Derivatives ReferenceIntegrator::consistent_rates(const Y& y, const Mode& mode) const {
+  const Vector3 t = y.segment<3>(0);
+  const double w = y[10];
+  const Vector3 bulk = Vector3(lambda_ + 2.0 * mu_, mu_, mu_) / p_.rve_length;
+  const double kn = std::max(p_.normal_stiffness, p_.tensile_strength / p_.delta0);
+  const double ks = std::max(p_.shear_stiffness, p_.cohesion / p_.delta0);
+  const Vector3 spring(1.0 / kn, 1.0 / ks, 1.0 / ks);
+  const Vector3 elastic = (1.0 - w) * spring;  // D/K
+  const Vector3 share = (Vector3::Ones() + bulk.cwiseProduct(elastic)).cwiseInverse();
+  Derivatives d{Y::Zero(), 0.0};
+  Vector3 dt = share.cwiseProduct(drive_);
+  if (!mode.plastic) {
+    d.rate.segment<3>(0) = dt;
+    d.rate.segment<3>(3) = elastic.cwiseProduct(dt);
+    return d;
+  }
+  const double c = p_.cohesion * w;
+  const double s = p_.tensile_strength * w;
+  const Vector3 f_t(2.0 * tan_phi_ * (c - t[0] * tan_phi_), 2.0 * t[1], 2.0 * t[2]);
+  const Vector3 g_t(2.0 * tan_psi_ * (c - t[0] * tan_psi_), 2.0 * t[1], 2.0 * t[2]);
+  const double f_w =
+      -2.0 * p_.cohesion * tan_phi_ * (2.0 * s - t[0]) + 2.0 * tan_phi_ * tan_phi_ * p_.tensile_strength * s;
+  double shear = std::hypot(g_t[1], g_t[2]);
+  if (mode.shear_sign != 0.0) shear = mode.shear_sign * g_t[1];
+  const double r = fall(w, mode.piece) * (g_t[0] + shear);
+  const Vector3 reversible = 0.5 * r * spring.cwiseProduct(t);
+  const Vector3 push = share.cwiseProduct(bulk).cwiseProduct(g_t + reversible);
+  const double denominator = f_t.dot(push) + f_w * r;
+  if (!(denominator > 0.0)) throw std::runtime_error("reference: the rate problem has no unique solution");
+  d.multiplier = f_t.dot(dt) / denominator;
+  dt -= d.multiplier * push;
+  d.rate.segment<3>(0) = dt;
+  d.rate.segment<3>(3) = d.multiplier * (g_t + reversible) + elastic.cwiseProduct(dt);
+  d.rate.segment<3>(6) = d.multiplier * (g_t - reversible);
+  d.rate[9] = d.multiplier * shear;
+  d.rate[10] = -d.multiplier * r;
+  d.rate[11] = d.multiplier * t.dot(g_t);
+  return d;
+}
+
+ReferenceIntegrator::Derivatives ReferenceIntegrator::published_rates(const Y& y, const Mode& mode) const {
   const Vector3 t = y.segment<3>(0);
   const double w = y[10];
   const double c = p_.cohesion * w;
@@ -322,7 +371,14 @@ void ReferenceIntegrator::plastic_phase(double& x) {
   while (x < 1.0) {
     h = std::min(h, 1.0 - x);
     Y error;
-    Y next = step(y, h, mode, &error);
+    Y next;
+    try {
+      next = step(y, h, mode, &error);
+    } catch (const std::runtime_error&) {  // perhaps only because a long step overshoots
+      if (h < 1e-11) throw;
+      h *= 0.1;
+      continue;
+    }
     const double w = y[10];
     const double e = std::max({error.segment<3>(0).cwiseAbs().maxCoeff() / (w * p_.tensile_strength),
                                error.segment<7>(3).cwiseAbs().maxCoeff() / p_.delta0, std::abs(error[10]) / w}) /

@@ -1,7 +1,7 @@
 // An independent reference for the tests: the rate equations of the paper as printed (eq 40-50, 63-67, slips of the
-// print repaired), integrated as an ordinary differential equation by Dormand and Prince's 5(4) pair with located
-// events. It shares no code with the library: tractions are not scaled, traction continuity is not eliminated, onset is
-// a search over planes.
+// print repaired), or those of the consistent zone (docs/equations.md), integrated as an ordinary differential equation
+// by Dormand and Prince's 5(4) pair with located events. It shares no code with the library: tractions are not scaled,
+// traction continuity is not eliminated, onset is a search over planes.
 #pragma once
 
 #include <Eigen/Dense>
@@ -67,6 +67,8 @@ class ReferenceIntegrator {
   [[nodiscard]] Y pack() const;
   void unpack(const Y& y);
   [[nodiscard]] Derivatives rates(const Y& y, const Mode& mode) const;
+  [[nodiscard]] Derivatives published_rates(const Y& y, const Mode& mode) const;
+  [[nodiscard]] Derivatives consistent_rates(const Y& y, const Mode& mode) const;
   [[nodiscard]] Y step(const Y& y, double h, const Mode& mode, Y* error) const;
   [[nodiscard]] double yield(const Vector3& t, double w) const;
   /// -dw/d(kappa) on a piece of the softening curve, 1/m, and the w at which the piece ends (negative: never).
@@ -85,7 +87,8 @@ class ReferenceIntegrator {
   Setting setting_;
   double tolerance_;
   double lambda_, mu_, tan_phi_, tan_psi_;
-  bool bilinear_;  ///< Petersson's softening; else the exponential one
+  bool bilinear_;    ///< Petersson's softening; else the exponential one
+  bool consistent_;  ///< the consistent zone; else the published one
   ReferenceState s_;
   bool unloading_ = false;           ///< the last phase ended where plastic loading did
   Vector3 drive_ = Vector3::Zero();  ///< local traction rate of the uncracked bulk, Pa per unit of the increment

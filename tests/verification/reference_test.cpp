@@ -83,10 +83,21 @@ TEST(Accurate, ReproducesTheFourStageData) {
                     });
 }
 
-/// The tolerance is a promise for the whole path, at any output increment, with every softening law.
+/// Calls check(choices) for every softening law with every form of the zone.
+template <class Check>
+void each_choice(const Check& check) {
+  for (const Word<CohesiveZone>& zone : Words<CohesiveZone>::list) {
+    for (const Word<SofteningKind>& softening : Words<SofteningKind>::list) {
+      SCOPED_TRACE(std::string(zone.text) + ", " + softening.text);
+      check(MaterialChoices{softening.value, zone.value});
+    }
+  }
+}
+
+/// The tolerance is a promise for the whole path, at any output increment, with every softening law and zone.
 template <int Dim>
-void expect_accurate_keeps_its_promise(Path<Dim> path, SofteningKind softening) {
-  path.parameters.choices.softening = softening;
+void expect_accurate_keeps_its_promise(Path<Dim> path, const MaterialChoices& choices) {
+  path.parameters.choices = choices;
   for (const double tolerance : {1e-4, 1e-6, 1e-8}) {
     for (const double increment : {1e-3, 9e-5, 3e-6, 3e-7}) {
       SCOPED_TRACE(path.name + ", tolerance " + std::to_string(std::log10(tolerance)) + ", increment " +
@@ -107,10 +118,7 @@ void expect_accurate_keeps_its_promise(Path<Dim> path, SofteningKind softening) 
 
 template <int Dim>
 void expect_accurate_keeps_its_promise(const Path<Dim>& path) {
-  for (const Word<SofteningKind>& softening : Words<SofteningKind>::list) {
-    SCOPED_TRACE(softening.text);
-    expect_accurate_keeps_its_promise<Dim>(path, softening.value);
-  }
+  each_choice([&](const MaterialChoices& choices) { expect_accurate_keeps_its_promise<Dim>(path, choices); });
 }
 
 TEST(Accurate, FourStage) { expect_accurate_keeps_its_promise(four_stage()); }
@@ -120,32 +128,30 @@ TEST(Accurate, ClosingSlidingReopening) { expect_accurate_keeps_its_promise(clos
 TEST(Accurate, PlaneStressCycle) { expect_accurate_keeps_its_promise(plane_stress_cycle()); }
 TEST(Accurate, RotatingShear) { expect_accurate_keeps_its_promise(rotating_shear()); }
 
-/// First order: halving the increment halves the error (0.8 allows for error terms of higher order), and at 9e-5 the
-/// error is below 1 % of sigma_t0.
+/// First order: halving the increment halves the error (0.8 allows for error terms of higher order; at larger
+/// increments sub-steps keep the error from growing), and at 9e-5 the error is below 1 % of sigma_t0. The reversible
+/// work of the consistent zone adds an error of its own: up to twice as much.
 template <int Dim>
-void expect_implicit_is_first_order(Path<Dim> path, SofteningKind softening) {
-  path.parameters.choices.softening = softening;
+void expect_implicit_is_first_order(Path<Dim> path, const MaterialChoices& choices) {
+  path.parameters.choices = choices;
   SCOPED_TRACE(path.name);
   Options options;
   options.method = Method::implicit;
-  const PathError coarse = compare<Dim>(path, options, 9e-5);
-  const PathError fine = compare<Dim>(path, options, 9e-5 / 16.0);
-  ASSERT_EQ(coarse.status, Status::ok);
-  ASSERT_EQ(fine.status, Status::ok);
-  EXPECT_LE(coarse.stress, 1e-2);
-  EXPECT_LE(coarse.damage, 1e-2);
-  EXPECT_LE(coarse.dissipated, 1e-2);
+  const PathError large = compare<Dim>(path, options, 9e-5);
+  const PathError coarse = compare<Dim>(path, options, 9e-5 / 8.0);
+  const PathError fine = compare<Dim>(path, options, 9e-5 / 128.0);
+  for (const PathError& e : {large, coarse, fine}) ASSERT_EQ(e.status, Status::ok);
+  EXPECT_LE(large.stress, choices.cohesive_zone == CohesiveZone::published ? 1e-2 : 2e-2);
+  EXPECT_LE(large.damage, 1e-2);
+  EXPECT_LE(large.dissipated, 1e-2);
   EXPECT_GE(std::log2(coarse.stress / fine.stress) / 4.0, 0.8);
   EXPECT_GE(std::log2(coarse.damage / fine.damage) / 4.0, 0.8);
-  EXPECT_LE(coarse.normal, 1e-12);
+  EXPECT_LE(large.normal, 1e-12);
 }
 
 template <int Dim>
 void expect_implicit_is_first_order(const Path<Dim>& path) {
-  for (const Word<SofteningKind>& softening : Words<SofteningKind>::list) {
-    SCOPED_TRACE(softening.text);
-    expect_implicit_is_first_order<Dim>(path, softening.value);
-  }
+  each_choice([&](const MaterialChoices& choices) { expect_implicit_is_first_order<Dim>(path, choices); });
 }
 
 TEST(Implicit, FourStage) { expect_implicit_is_first_order(four_stage()); }

@@ -63,7 +63,7 @@ std::vector<Point<Dim>> points_of(const std::vector<Path<Dim>>& paths, const Opt
 }
 
 std::vector<Path<2>> paths2() {
-  return {four_stage(), mixed_mode(), compressive_shear(), closing(), plane_stress_cycle()};
+  return in_every_zone<2>({four_stage(), mixed_mode(), compressive_shear(), closing(), plane_stress_cycle()});
 }
 
 /// Skew onset planes: interior and mode I, no two principal stresses equal.
@@ -78,7 +78,7 @@ std::vector<Path<3>> paths3() {
                      table1(0.5e-3),
                      Setting::three_d,
                      {strain3(-3e-3, -3.3e-3, -3.5e-3, 0, 0, 0), strain3(0, 1e-4, 0, 1e-2, 4e-3, 3e-3)}};
-  return {inclined, mode_one, compressed, rotating_shear()};
+  return in_every_zone<3>({inclined, mode_one, compressed, rotating_shear()});
 }
 
 /// Differences of f(column, step) on both sides. `central` is extrapolated.
@@ -193,8 +193,8 @@ TEST(Tangent, Accurate3D) {
 
 /// dt/du of Algorithm 1: loading, unloading, compression, in 2-D and 3-D.
 template <int Dim>
-void check_cohesive_tangent(Method method) {
-  const CohesiveLaw<double> law = make_cohesive_law(table1());
+void check_cohesive_tangent(Method method, CohesiveZone zone) {
+  const CohesiveLaw<double> law = make_cohesive_law(with_zone(table1(), zone));
   const Options o = options_for(method);
   Vec<double, Dim> onset = Vec<double, Dim>::Zero();
   onset[1] = 0.3e6;
@@ -227,9 +227,12 @@ void check_cohesive_tangent(Method method) {
 }
 
 TEST(Tangent, CohesiveUpdate) {
-  for (const Method method : {Method::implicit, Method::accurate}) {
-    check_cohesive_tangent<2>(method);
-    check_cohesive_tangent<3>(method);
+  for (const CohesiveZone zone : {CohesiveZone::consistent, CohesiveZone::published}) {
+    for (const Method method : {Method::implicit, Method::accurate}) {
+      SCOPED_TRACE(to_string(zone));
+      check_cohesive_tangent<2>(method, zone);
+      check_cohesive_tangent<3>(method, zone);
+    }
   }
 }
 
@@ -245,7 +248,7 @@ using ParameterJet = ceres::Jet<double, parameter_count>;
 BasicParameters<ParameterJet> seeded(const Parameters& p) {
   ParameterJet x[parameter_count];
   for (int k = 0; k < parameter_count; ++k) x[k] = ParameterJet(p.*parameter_members[k], k);
-  return {x[0], x[1], x[2], x[3], x[4], x[5], x[6], x[7], x[8], x[9], x[10]};
+  return {x[0], x[1], x[2], x[3], x[4], x[5], x[6], x[7], x[8], x[9], x[10], p.choices};
 }
 
 /// Stress after a whole path, for given parameters.
@@ -295,12 +298,12 @@ void check_parameter_derivatives(const Path<2>& path, Method method) {
 }
 
 TEST(ParameterDerivatives, Implicit) {
-  for (const Path<2>& path : {mixed_mode(), compressive_shear(), closing(), plane_stress_cycle()}) {
+  for (const Path<2>& path : in_every_zone<2>({mixed_mode(), compressive_shear(), closing(), plane_stress_cycle()})) {
     check_parameter_derivatives(path, Method::implicit);
   }
 }
 TEST(ParameterDerivatives, Accurate) {
-  for (const Path<2>& path : {mixed_mode(), compressive_shear(), closing(), plane_stress_cycle()}) {
+  for (const Path<2>& path : in_every_zone<2>({mixed_mode(), compressive_shear(), closing(), plane_stress_cycle()})) {
     check_parameter_derivatives(path, Method::accurate);
   }
 }

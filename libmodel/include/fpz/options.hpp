@@ -1,7 +1,9 @@
 // How an update is integrated, and what it reports.
 #pragma once
 
-#include "fpz/types.hpp"
+#include <string>
+
+#include "fpz/parameters.hpp"
 
 namespace fpz {
 
@@ -36,6 +38,9 @@ struct Options {
   /// rule of onset.hpp.
   Vec<double, 3> preferred_normal = Vec<double, 3>::Zero();
 };
+
+/// Why an integrator cannot follow the cohesive zone of a material, with the way out; empty: it can.
+[[nodiscard]] std::string why_unfit(Method method, const MaterialChoices& choices);
 
 struct Report {
   Status status = Status::ok;

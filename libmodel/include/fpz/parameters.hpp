@@ -134,10 +134,21 @@ struct Validation {
 /// = 0 (pure opening has no solution), uniaxial tensile strength below sigma_t0 (3.4).
 [[nodiscard]] Validation validate(const Parameters& p, Setting setting);
 
-/// Largest H without snap-back under strain control in mode I: (lambda + 2 mu) l / sigma_t0 with 1/l the steepest slope
-/// of the softening law (l = delta0 for the exponential one), and the plane-stress modulus E/(1 - nu^2) in place of
-/// lambda + 2 mu where that applies. Metres.
+/// Largest H without snap-back under strain control in mode I: (lambda + 2 mu) l / sigma_t0, and the plane-stress
+/// modulus E/(1 - nu^2) in place of lambda + 2 mu where that applies. In the published zone 1/l is the steepest slope
+/// of the softening law (l = delta0 for the exponential one); in the consistent one l is longer or shorter by a part of
+/// sigma_t0/Kn (docs/equations.md). Metres.
 [[nodiscard]] double snap_back_length(const Parameters& p, Setting setting);
+
+/// The energy t.K^-1.t/2 with which the springs of the published zone are preloaded at onset and which no work pays
+/// for, at its largest for normal tractions from -c0 to sigma_t0; it grows with more pressure.
+struct OnsetPreload {
+  double ratio = 0.0;      ///< over the fracture energy sigma_t0 delta0; 0 in the consistent zone
+  double normal = 0.0;     ///< traction at which it is largest, Pa
+  double shear = 0.0;      ///< the same, magnitude
+  double stiffness = 0.0;  ///< of Kn and Ks the one that matters most there, Pa/m
+};
+[[nodiscard]] OnsetPreload onset_preload(const Parameters& p);
 
 /// The stress at which uniaxial tension cracks: sigma_t0, or less when the critical plane is inclined
 /// (docs/equations.md). Pa.

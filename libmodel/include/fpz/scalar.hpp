@@ -69,6 +69,7 @@ struct Dual {
     const double e = std::exp(x.val);
     return {e, e * x.grad};
   }
+  friend Dual log(const Dual& x) { return {std::log(x.val), x.grad / x.val}; }
   friend Dual tan(const Dual& x) {
     const double t = std::tan(x.val);
     return {t, (1.0 + t * t) * x.grad};

@@ -39,7 +39,7 @@ enum class Status : std::uint8_t {
                     ///< smaller H or jump control
   no_plastic_flow,  ///< dilation angle 0 and pure opening: the flow rule (eq 50)
                     ///< has no direction to relax the traction
-  invalid_input     ///< a NaN or infinite strain or state
+  invalid_input     ///< a NaN or infinite strain or state; an integrator that does not know the material's zone
 };
 
 template <>

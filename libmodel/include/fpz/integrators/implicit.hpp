@@ -385,7 +385,9 @@ template <class T, class Softening>
 [[nodiscard]] T flow_work(const Softening& softening, double p0, const T& p1, const T& w0, const T& w1, const T& a) {
   if (value(w0) - value(w1) <= 1e-6 * value(w0)) return 0.25 * (p0 + p1) * (w0 + w1) * a;
   const T area = softening.dissipated(Dissipation<double>{1.0, 0.0}, Dissipation<T>{T(1.0), T(0.0)}, w0, w1);
-  return p0 * area + (p1 - p0) / (1.0 / w1 - 1.0 / w0) * (a - area / w0);
+  const bool settles = softening.piece(value(w1)) == settled_piece;
+  const T fall = settles ? softening.fall(w0, w1) : a;  // the rest goes on at the least integrity
+  return p0 * area + (p1 - p0) / (1.0 / w1 - 1.0 / w0) * (fall - area / w0) + p1 * w1 * (a - fall);
 }
 
 /// One backward Euler step over the drive d0 -> d1. The solve runs on plain values; one Newton step in T carries

@@ -170,9 +170,14 @@ template <int Dim, class T, class Law>
     s_end[k] = value(s[k]) + value(ds[k]);
   }
   const auto& surface = zone.law.surface;
-  if (surface.template contains<NS>(value(w), value(n) + value(dn), s_end)) return T(-1.0);
+  const double n_end = value(n) + value(dn);
+  if (surface.template contains<NS>(value(w), n_end, s_end)) return T(-1.0);
   const T x = surface.template exit_fraction<NS>(w, n, s, dn, ds);
-  return value(x) >= 0.0 && value(x) <= 1.0 ? x : T(-1.0);
+  if (value(x) >= 0.0 && value(x) <= 1.0) return x;
+  // Near the tip of a separated zone's surface rounding decides; what ends well outside has left at once.
+  const double shear2 = squared_norm(s_end);
+  const double size = value(w) * value(surface.cohesion) + std::abs(n_end) + std::sqrt(shear2);
+  return value(surface.value_at(T(n_end), T(shear2), w)) > 1e-10 * size ? T(0.0) : T(-1.0);
 }
 
 /// First fraction in [0, 1] at which the elastic motion q0 + x dq reaches the yield surface, or a negative value. In

@@ -7,6 +7,9 @@
 // (accurate.hpp), the one of jump_control.hpp with the inelastic displacement.
 #pragma once
 
+#include <optional>
+#include <utility>
+
 #include "fpz/integrators/rate.hpp"
 #include "fpz/integrators/rodas.hpp"
 #include "fpz/options.hpp"
@@ -21,9 +24,11 @@ inline constexpr double largest_softening_step = 1.0;
 /// Integrity below which the energy that is left does not count.
 inline constexpr double negligible_integrity = 1e-14;
 
-/// In the consistent zone tau_s stays known to this part of its size: where closed faces of a separated zone open, the
-/// point runs over the tip of the yield surface, which is tiny in t.
+/// In the consistent zone tau_s stays known to a part of its size, and does not change by more than a multiple of it in
+/// one step: where closed faces of a separated zone open, the point runs over the tip of the yield surface, which is
+/// tiny in t.
 inline constexpr double largest_shear_error = 0.1;
+inline constexpr double largest_shear_step = 2.0;
 
 /// What ends a smooth branch.
 enum class YieldEvent : int { unloading, normal_sign, shear_sign, softening_kink };
@@ -117,6 +122,7 @@ class YieldingPhase {
  public:
   using Scalar = T;
   using Law = LawOf;
+  static constexpr bool follows_drive = true;
   static constexpr int NS = Dim - 1;
   static constexpr int N = Dim;
   using Y = Vec<T, N>;  ///< (tau_s components, a)
@@ -191,6 +197,34 @@ class YieldingPhase {
     const double per_damage = slides_on_closed_faces(law(), r) ? 1.0 : std::max(1.0, level);
     const double damage_error = law().softening.loss(branch.piece, w, std::abs(value(error[NS]))) * per_damage;
     return std::max({std::sqrt(shear2) * weight, std::abs(normal) * weight, damage_error});
+  }
+
+  /// A separated consistent zone whose faces move apart: its flow turns parallel to the drive within a motion that is
+  /// `least_integrity` times the elastic one, far below what the drive resolves. The tau_s of that state, if there is
+  /// one in tension.
+  [[nodiscard]] std::optional<Shear> steady_opening(const Point& r) const {
+    if (branch.piece != settled_piece || value(r.hyp.normal) < 0.0 || !(value(rate_n_) > 0.0)) return std::nullopt;
+    const auto surface = law().surface.values();
+    double slip2 = 0.0;
+    for (int k = 0; k < NS; ++k) slip2 += value(rate_s_[k]) * value(rate_s_[k]);
+    const double slip = std::sqrt(slip2);
+    double lo = 0.0;
+    double hi = surface.cohesion;
+    for (int k = 0; k < 60 && slip > 0.0; ++k) {
+      const double s = 0.5 * (lo + hi);
+      (surface.point(s * s).flow_n * slip > s * value(rate_n_) ? lo : hi) = s;
+    }
+    if (!surface.contains_shear(lo * lo)) return std::nullopt;
+    Shear tau;
+    for (int k = 0; k < NS; ++k) tau[k] = slip > 0.0 ? T(lo * value(rate_s_[k]) / slip) : T(0.0);
+    return tau;
+  }
+  /// d(a) and d(slip) of a flow that follows the drive.
+  [[nodiscard]] std::pair<T, T> flow_along_drive() const {
+    using std::sqrt;
+    const T slip2 = squared_norm(rate_s_);
+    const T slip = value(slip2) > 0.0 ? T(sqrt(slip2)) : T(0.0);
+    return {T(rate_n_ + slip), slip};
   }
 
   /// Smooth functions that are positive while the branch holds.
@@ -351,7 +385,8 @@ template <class Phase>
   const T to_second = w.second - (a.r.w + m.w) * w.first + a.r.w * m.w * whole;
   const T x = (middle[NS] - a.y[NS]) / whole;
   const T y = 1.0 - x;
-  return {T(p[0] * whole + first * to_first + second * to_second),
+  const T work = p[0] * whole + first * to_first + second * to_second;
+  return {value(work) > 0.0 ? work : T(0.0),
           T(whole / 6.0 * ((2.0 - y / x) * s[0] + s[1] / (x * y) + (2.0 - x / y) * s[2]))};
 }
 
@@ -402,15 +437,19 @@ struct Yielded {
 };
 
 /// The error of a step in units of what is allowed.
-template <class Phase>
-[[nodiscard]] double error_of(const Phase& phase, const typename Phase::Point& r, const typename Phase::Y& error,
-                              double tolerance) {
-  const double e = phase.error_norm(r, error) / tolerance;
+template <class Phase, class Step>
+[[nodiscard]] double error_of(const Phase& phase, const Station<Phase>& at, const Step& trial, double tolerance) {
+  const double e = phase.error_norm(at.r, trial.error) / tolerance;
   if (phase.law().zone == CohesiveZone::published) return e;
-  double shear2 = 0.0;
-  for (int k = 0; k < Phase::NS; ++k) shear2 += value(error[k]) * value(error[k]);
-  const double size = value(r.shear) + value(phase.law().surface.apex);
-  return std::max(e, std::sqrt(shear2) / (largest_shear_error * size));
+  double error2 = 0.0;
+  double change2 = 0.0;
+  for (int k = 0; k < Phase::NS; ++k) {
+    error2 += value(trial.error[k]) * value(trial.error[k]);
+    change2 += value(trial.y[k] - at.y[k]) * value(trial.y[k] - at.y[k]);
+  }
+  const double size = value(at.r.shear) + value(phase.law().surface.apex);
+  return std::max(
+      {e, std::sqrt(error2) / (largest_shear_error * size), std::sqrt(change2) / (largest_shear_step * size)});
 }
 
 /// Runs one yielding phase from the position `from` of the drive until `end`, or until the point unloads or reaches a
@@ -423,7 +462,8 @@ template <class Phase>
   Yielded<Phase> out;
   const double tolerance = local_tolerance_fraction * options.tolerance;
   const double length = value(phase.law().softening.length());
-  const double smallest = 1e-13 * end;
+  // A separated consistent zone has events that close together.
+  const double smallest = (phase.law().zone == CohesiveZone::consistent ? 1e-15 : 1e-13) * end;
   choose_branch(phase, y);
   Station<Phase> at{y, phase.point(y), y};
   const auto stop = [&](Status s) {
@@ -437,6 +477,16 @@ template <class Phase>
   const double first = 0.5 * length * std::pow(options.tolerance, 0.25) / (std::abs(value(at.f[NS])) + 1e-300);
   double step = std::min(end - value(position), first);
   while (value(position) < end) {
+    if constexpr (Phase::follows_drive) {
+      if (const auto shear = phase.steady_opening(at.r)) {
+        const auto [a_rate, slip_rate] = phase.flow_along_drive();
+        at.y.template head<NS>() = *shear;
+        at.y[NS] += a_rate * (end - position);
+        out.sums.slip += slip_rate * (end - position);
+        position = T(end);
+        break;
+      }
+    }
     if (report.iterations >= options.max_substeps) return stop(Status::non_convergence);
     const double left = end - value(position);
     const bool last = step >= left * (1.0 - 1e-12);
@@ -444,7 +494,7 @@ template <class Phase>
     ++report.iterations;
     // 1. A step within the tolerance that does not soften too far.
     auto trial = phase.advance(at.y, at.r, at.f, h);
-    const double error = trial.defined ? error_of<Phase>(phase, at.r, trial.error, tolerance) : 1e9;
+    const double error = trial.defined ? error_of(phase, at, trial, tolerance) : 1e9;
     if (!(error <= 1.0)) {
       step = value(h) * std::max(0.1, 0.9 * std::pow(error, -0.25));
       if (step < smallest) return stop(phase.failure(at.r));
@@ -457,7 +507,7 @@ template <class Phase>
       continue;
     }
     Station<Phase> next{trial.y, phase.point(trial.y), trial.y};
-    if (!phase.solvable(next.r)) {
+    if (!phase.solvable(next.r) || !is_within_branch(phase.law(), next.r)) {
       step = 0.1 * value(h);
       if (step < smallest) return stop(phase.failure(at.r));
       continue;

@@ -19,14 +19,14 @@ struct BilinearSoftening {
   static constexpr double first_fall = 5.0 / 6.0;    ///< -dw/d(kappa/delta0): (1 - 1/3)/0.8
   static constexpr double second_fall = 5.0 / 42.0;  ///< (1/3)/(3.6 - 0.8)
 
-  P delta0{};      ///< m
-  P fall[3] = {};  ///< -dw/d(kappa) of each piece, 1/m
+  P delta0{};           ///< m
+  P steepness[3] = {};  ///< -dw/d(kappa) of each piece, 1/m
 
   [[nodiscard]] static BilinearSoftening make(const BasicParameters<P>& p) {
     return {p.delta0, {first_fall / p.delta0, second_fall / p.delta0, P(0.0)}};
   }
   [[nodiscard]] BilinearSoftening<double> values() const {
-    return {value(delta0), {value(fall[0]), value(fall[1]), 0.0}};
+    return {value(delta0), {value(steepness[0]), value(steepness[1]), 0.0}};
   }
 
   [[nodiscard]] static int piece(double w) { return w > kink ? 0 : w > 0.0 ? 1 : 2; }
@@ -34,14 +34,14 @@ struct BilinearSoftening {
 
   template <class T>
   [[nodiscard]] T after(int k, const T& w, const T& kappa) const {
-    return w - fall[k] * kappa;
+    return w - steepness[k] * kappa;
   }
   template <class T>
   [[nodiscard]] T after(const T& w, const T& kappa) const {
     T left = kappa;
     T now = w;
     for (int k = piece(value(w)); k < 2; ++k) {
-      const T room = (now - piece_end(k)) / fall[k];
+      const T room = (now - piece_end(k)) / steepness[k];
       if (value(left) < value(room)) return after(k, now, left);
       left -= room;
       now = T(piece_end(k));
@@ -50,7 +50,7 @@ struct BilinearSoftening {
   }
   template <class T>
   [[nodiscard]] T slope(int k, const T&) const {
-    return T(-fall[k]);
+    return T(-steepness[k]);
   }
   template <class T>
   [[nodiscard]] T curvature(int, const T&) const {
@@ -58,15 +58,15 @@ struct BilinearSoftening {
   }
   template <class T>
   [[nodiscard]] T local_length(int k, const T& w) const {
-    return w / fall[k];
+    return w / steepness[k];
   }
-  [[nodiscard]] double loss(int k, double, double kappa) const { return value(fall[k]) * kappa; }
+  [[nodiscard]] double loss(int k, double, double kappa) const { return value(steepness[k]) * kappa; }
 
   // The measure is D itself: a straight line dissipates plastic work in proportion to w, damage energy evenly.
   [[nodiscard]] P measure() const { return P(1.0); }
   template <class T>
   [[nodiscard]] T measure_rate(int k, const T&) const {
-    return T(fall[k]);
+    return T(steepness[k]);
   }
   template <class T>
   [[nodiscard]] T density(int k, const T& w, const Dissipation<T>& d) const {
@@ -77,6 +77,17 @@ struct BilinearSoftening {
     return 0.5 * (d0.plastic + d1.plastic) * area_between(w0, w1) + 0.5 * (d0.damage + d1.damage) * (w0 - w1);
   }
 
+  template <class T>
+  [[nodiscard]] T fall(const T& w0, const T& w1) const {
+    T sum = T(0.0);
+    T from = w0;
+    for (int k = piece(value(w0)); k < 2 && value(from) > value(w1); ++k) {
+      const T to = value(w1) > value(piece_end(k)) ? w1 : T(piece_end(k));
+      sum += (from - to) / steepness[k];
+      from = to;
+    }
+    return sum;
+  }
   template <class T>
   [[nodiscard]] SofteningMoments<T> moments(int, const T& w0, const T& w1, const T& kappa) const {
     return {T(0.5 * (w0 + w1) * kappa), T((w0 * w0 + w0 * w1 + w1 * w1) * kappa / 3.0)};
@@ -98,7 +109,7 @@ struct BilinearSoftening {
     T from = w0;
     for (int k = piece(value(w0)); k < 2; ++k) {
       const T to = value(w1) > value(piece_end(k)) ? w1 : T(piece_end(k));
-      sum += 0.5 * (from - to) * (from + to) / fall[k];
+      sum += 0.5 * (from - to) * (from + to) / steepness[k];
       if (value(w1) > value(piece_end(k))) break;
       from = to;
     }

@@ -64,6 +64,11 @@ struct ExponentialSoftening {
   }
 
   template <class T>
+  [[nodiscard]] T fall(const T& w0, const T& w1) const {
+    using std::log;
+    return delta0 * log(w0 / w1);
+  }
+  template <class T>
   [[nodiscard]] SofteningMoments<T> moments(int, const T& w0, const T& w1, const T&) const {
     return {T(delta0 * (w0 - w1)), T(0.5 * delta0 * (w0 - w1) * (w0 + w1))};
   }

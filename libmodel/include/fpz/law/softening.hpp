@@ -17,6 +17,7 @@
 //                          product.
 //   dissipated(d0, d1, w0, w1)  energy lost from w0 to w1 (J/m^2), trapezoidal in the parts of the dissipation; exact
 //                          where these are constant, as in a pure opening
+//   fall(w0, w1)           displacement over which w falls from w0 to w1, through kinks (m)
 //   moments(piece, w0, w1, kappa)  integrals of w and w^2 over d(kappa) while w falls from w0 to w1 by `kappa` on one
 //                          piece: exact sums of what is smooth in w
 //   length()               a displacement over which the law softens noticeably, for step sizes and tolerances (m)
@@ -120,6 +121,10 @@ struct Softening {
   [[nodiscard]] FPZ_INLINE T dissipated(const Dissipation<double>& d0, const Dissipation<T>& d1, const T& w0,
                                         const T& w1) const {
     return visit([&](const auto& s) { return s.dissipated(d0, d1, w0, w1); });
+  }
+  template <class T>
+  [[nodiscard]] T fall(const T& w0, const T& w1) const {
+    return visit([&](const auto& s) { return s.fall(w0, w1); });
   }
   template <class T>
   [[nodiscard]] SofteningMoments<T> moments(int k, const T& w0, const T& w1, const T& kappa) const {

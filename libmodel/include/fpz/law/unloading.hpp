@@ -1,12 +1,15 @@
-// How the jump of a zone that does not yield follows its traction: the two forms of a cohesive zone, and all in which they
-// differ (docs/equations.md).
+// How the jump of a zone that does not yield follows its traction: the two forms of a cohesive zone, and all in which
+// they differ (docs/equations.md).
 //
-//   published   t = P K (u + u0 - up), u0 = K^-1 t_onset, eq 44-46: springs preloaded at onset with an energy that nobody
+//   published   t = P K (u + u0 - up), u0 = K^-1 t_onset, eq 44-46: springs preloaded at onset with an energy that
+//   nobody
 //               has paid for; in compression (t_n < 0) the normal one keeps its stiffness
-//   consistent  u - up = D K^-1 t: rigid at onset, 1/K when D = 1. Stores t.D K^-1.t/2 >= 0. The growth of the compliance
+//   consistent  u - up = D K^-1 t: rigid at onset, 1/K when D = 1. Stores t.D K^-1.t/2 >= 0. The growth of the
+//   compliance
 //               is reversible work: dup = flow - K^-1 t dD/2, so that t.du = d(stored) + t.flow whatever K is
 //
-// In series with the compliance b of the bulk both are q = d + u0 - up = c(w) tau for the scaled traction tau = t/w, with
+// In series with the compliance b of the bulk both are q = d + u0 - up = c(w) tau for the scaled traction tau = t/w,
+// with
 //   c(w) = fixed + w (linear + bent (1 - w)).
 #pragma once
 
@@ -15,8 +18,8 @@
 namespace fpz {
 
 /// Integrity below which the consistent zone does not fall: the tensile strength left is nothing, but the yield surface
-/// keeps a size, and with it the friction of closed faces. Exponential softening is there after 27.6 delta0.
-inline constexpr double least_integrity = 1e-12;
+/// keeps a size, and with it the friction of closed faces. Exponential softening is there after 23 delta0.
+inline constexpr double least_integrity = 1e-10;
 
 /// c(w) of one component, m/Pa.
 template <class P>
@@ -43,9 +46,9 @@ struct ComplianceLaw {
   /// d(drag)/dw.
   [[nodiscard]] FPZ_INLINE P drag_slope() const { return -1.5 * bent; }
 
-  /// What takes the place of c(w) in one step of backward Euler from w_old: the integral of the drag. Exact where tau is
-  /// constant, as in pure opening. Beyond a loss of half the integrity the reversible work counts less, which keeps it
-  /// positive, unless it is a pure opening (`whole`).
+  /// What takes the place of c(w) in one step of backward Euler from w_old: the integral of the drag. Exact where tau
+  /// is constant, as in pure opening. Beyond a loss of half the integrity the reversible work counts less, which keeps
+  /// it positive, unless it is a pure opening (`whole`).
   template <class T>
   [[nodiscard]] FPZ_INLINE T over_step(const T& w_old, const T& w, bool whole) const {
     const T span = whole || value(w) * 2.0 >= value(w_old) ? T(w_old + w) : T(3.0 * w);
@@ -63,7 +66,8 @@ template <class P>
 [[nodiscard]] FPZ_INLINE ComplianceLaw<P> normal_compliance(CohesiveZone form, const P& flexibility, const P& bulk,
                                                             bool tension) {
   if (form == CohesiveZone::consistent) return {P(0.0), bulk, flexibility};
-  return tension ? ComplianceLaw<P>{flexibility, bulk, P(0.0)} : ComplianceLaw<P>{P(0.0), P(flexibility + bulk), P(0.0)};
+  return tension ? ComplianceLaw<P>{flexibility, bulk, P(0.0)}
+                 : ComplianceLaw<P>{P(0.0), P(flexibility + bulk), P(0.0)};
 }
 
 /// A shear component, with 1/Ks.
