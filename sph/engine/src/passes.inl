@@ -72,11 +72,11 @@ void gradient_reference(const V& v, Index first, Index last) {
     double raised[n];
     FPZ_LANES {
       const Index i = o + l;
-      const Symmetric c = {v.correction[0][i], v.correction[1][i], v.correction[2][i]};
+      const Full c = {v.correction[0][i], v.correction[2][i], v.correction[3][i], v.correction[1][i]};
       const double scale = v.step / v.volume[i];
-      const double bxx = v.gradient[0][i] + scale * (xx[l] * c.xx + xy[l] * c.xy);
+      const double bxx = v.gradient[0][i] + scale * (xx[l] * c.xx + xy[l] * c.yx);
       const double bxy = v.gradient[1][i] + scale * (xx[l] * c.xy + xy[l] * c.yy);
-      const double byx = v.gradient[2][i] + scale * (yx[l] * c.xx + yy[l] * c.xy);
+      const double byx = v.gradient[2][i] + scale * (yx[l] * c.xx + yy[l] * c.yx);
       const double byy = v.gradient[3][i] + scale * (yx[l] * c.xy + yy[l] * c.yy);
       v.gradient[0][i] = bxx;
       v.gradient[1][i] = bxy;
@@ -144,7 +144,8 @@ FPZ_LANE void kick(const V& v, Index b, double (&fx)[n], double (&fy)[n]) {
   if (v.damped) account(v.damping_work, v.damping_next, b, before, after);
 }
 
-/// eq 20: internal force, sum V_i V_j (sigma_i L_i + sigma_j L_j) grad W_ij in the undeformed body; then kick().
+/// eq 20: internal force, sum (sigma_i L_i^T + sigma_j L_j^T) w_ij in the undeformed body, with w_ij = V_i V_j grad
+/// W_ij or what takes its place; then kick().
 void force_reference(const V& v, Index first, Index last) {
   const double *txx = v.flux[0], *txy = v.flux[1], *tyx = v.flux[2], *tyy = v.flux[3];
   for (Index b = first; b < last; ++b) {
@@ -172,11 +173,11 @@ void gradient_zero_energy(const V& v, Index first, Index last) {
     difference_sums(v, b, v.predicted[0], v.predicted[1], xx, xy, yx, yy);
     FPZ_LANES {
       const Index i = o + l;
-      const Symmetric c = {v.correction[0][i], v.correction[1][i], v.correction[2][i]};
+      const Full c = {v.correction[0][i], v.correction[2][i], v.correction[3][i], v.correction[1][i]};
       const double inverse = 1.0 / v.volume[i];
-      v.zero_energy_rate[0][i] = inverse * (xx[l] * c.xx + xy[l] * c.xy);
+      v.zero_energy_rate[0][i] = inverse * (xx[l] * c.xx + xy[l] * c.yx);
       v.zero_energy_rate[1][i] = inverse * (xx[l] * c.xy + xy[l] * c.yy);
-      v.zero_energy_rate[2][i] = inverse * (yx[l] * c.xx + yy[l] * c.xy);
+      v.zero_energy_rate[2][i] = inverse * (yx[l] * c.xx + yy[l] * c.yx);
       v.zero_energy_rate[3][i] = inverse * (yx[l] * c.xy + yy[l] * c.yy);
     }
   }
@@ -270,10 +271,11 @@ void gradient_updated(const V& v, Index first, Index last) {
     FPZ_LANES {
       const Index i = o + l;
       const double inverse = 1.0 / volume[i];
-      const Symmetric c = correction_of({mxx[l] * inverse, myy[l] * inverse, mxy[l] * inverse});
+      const Symmetric c = correction_of(Symmetric{mxx[l] * inverse, myy[l] * inverse, mxy[l] * inverse});
       v.correction[0][i] = c.xx;
       v.correction[1][i] = c.yy;
       v.correction[2][i] = c.xy;
+      v.correction[3][i] = c.xy;
       // a = step * velocity gradient in the configuration of the end: F of the step is (I - a)^-1 = I + f.
       const double scale = v.step * inverse;
       const double axx = scale * (xx[l] * c.xx + xy[l] * c.xy);
@@ -298,7 +300,7 @@ void gradient_updated(const V& v, Index first, Index last) {
       v.stress[1][i] = take ? s.yy : old.yy;
       v.stress[2][i] = take ? s.xy : old.xy;
       const Symmetric identity = {1.0, 1.0, 0.0};
-      const Full t = flux_of(1.0, 0.0, s, PaperMomentum ? identity : c);
+      const Full t = flux_of(1.0, 0.0, s, full(PaperMomentum ? identity : c));
       v.flux[0][i] = t.xx;
       v.flux[1][i] = t.xy;
       v.flux[2][i] = t.yx;

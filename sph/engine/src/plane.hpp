@@ -9,6 +9,12 @@ struct Symmetric {
   double xx, yy, xy;
 };
 
+struct Full {
+  double xx, xy, yx, yy;
+};
+
+FPZ_LANE Full full(const Symmetric& a) { return {a.xx, a.xy, a.xy, a.yy}; }
+
 /// Rotation R and stretch U - I of F = R U = I + b, without cancellation for small b (row-major components).
 struct Stretch {
   double cosine, sine;
@@ -44,10 +50,11 @@ FPZ_LANE bool intact(double sin_phi, double strength, double apex, const Symmetr
   return (room > 0.0) & (d * d + s.xy * s.xy + apex * apex < room * room);
 }
 
-/// Inverse of the symmetric, positive semi-definite moment matrix (eq 18). A direction in which the neighbours hardly
-/// extend (eigenvalue below `floor` of the larger one) gets zero: no gradient is computed along it.
-FPZ_LANE Symmetric correction_of(const Symmetric& a) {
-  constexpr double floor = 0.02;
+/// A direction in which the neighbours hardly extend (moment below this part of the larger one) has no gradient.
+constexpr double moment_floor = 0.02;
+
+/// Inverse of a symmetric, positive semi-definite matrix; an eigenvalue below `floor` of the larger one gets zero.
+FPZ_LANE Symmetric inverse_above(const Symmetric& a, double floor) {
   const double mean = 0.5 * (a.xx + a.yy);
   const double d = 0.5 * (a.xx - a.yy);
   const double r = __builtin_sqrt(d * d + a.xy * a.xy);
@@ -61,6 +68,16 @@ FPZ_LANE Symmetric correction_of(const Symmetric& a) {
   return {sum + difference * d, sum - difference * d, difference * a.xy};
 }
 
+/// Correction of the kernel gradient from its moment matrix (eq 18).
+FPZ_LANE Symmetric correction_of(const Symmetric& a) { return inverse_above(a, moment_floor); }
+
+/// Inverse of any moment matrix A as (A^T A)^-1 A^T, with the same floor.
+FPZ_LANE Full correction_of(const Full& a) {
+  const Symmetric square = {a.xx * a.xx + a.yx * a.yx, a.xy * a.xy + a.yy * a.yy, a.xx * a.xy + a.yx * a.yy};
+  const Symmetric b = inverse_above(square, moment_floor * moment_floor);
+  return {b.xx * a.xx + b.xy * a.xy, b.xx * a.yx + b.xy * a.yy, b.xy * a.xx + b.yy * a.xy, b.xy * a.yx + b.yy * a.yy};
+}
+
 /// R s R^T.
 FPZ_LANE Symmetric rotated(double c, double s, const Symmetric& a) {
   const double xx = c * a.xx - s * a.xy;
@@ -70,16 +87,13 @@ FPZ_LANE Symmetric rotated(double c, double s, const Symmetric& a) {
   return {xx * c - xy * s, yx * s + yy * c, xx * s + xy * c};
 }
 
-/// R a L, row-major: the flux that the force sums.
-struct Full {
-  double xx, xy, yx, yy;
-};
-FPZ_LANE Full flux_of(double c, double s, const Symmetric& a, const Symmetric& l) {
+/// R a L^T, row-major: the flux that the force sums.
+FPZ_LANE Full flux_of(double c, double s, const Symmetric& a, const Full& l) {
   const double xx = c * a.xx - s * a.xy;
   const double xy = c * a.xy - s * a.yy;
   const double yx = s * a.xx + c * a.xy;
   const double yy = s * a.xy + c * a.yy;
-  return {xx * l.xx + xy * l.xy, xx * l.xy + xy * l.yy, yx * l.xx + yy * l.xy, yx * l.xy + yy * l.yy};
+  return {xx * l.xx + xy * l.xy, xx * l.yx + xy * l.yy, yx * l.xx + yy * l.xy, yx * l.yx + yy * l.yy};
 }
 
 /// -epsilon times the tensile part of a stress: what repels particles along tensile principal directions.

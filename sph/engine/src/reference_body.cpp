@@ -18,6 +18,10 @@ ReferenceBody<Dim>::ReferenceBody(RunData<Dim>& run) : Body<Dim>(run) {
   separate<Dim>(this->lists_, run.setup.arrangement.cuts, p.start);
   this->bonds_ = pack<Dim>(this->lists_, p.padded(), false);
   this->builds_ = 1;
+  const Options<Dim>& o = run.setup.options;
+  if (o.gradient == Gradient::consistent && o.momentum == MomentumForm::adjoint) {
+    vectors_ = make_bond_vectors(run, this->lists_);
+  }
   for (std::size_t i = 0; i < p.count; ++i) write_row(i);
   this->point_bonds();
 }
@@ -60,7 +64,7 @@ Tensor<double, Dim> ReferenceBody<Dim>::strain_increment(std::size_t i, const St
 template <int Dim>
 void ReferenceBody<Dim>::set_flux(std::size_t i, const Symmetric& stress) {
   Particles<Dim>& p = this->run_.particles;
-  const Symmetric l = {p.correction[0][i], p.correction[1][i], p.correction[2][i]};
+  const Full l = {p.correction[0][i], p.correction[2][i], p.correction[3][i], p.correction[1][i]};
   const Full t = flux_of(p.rotation[0][i], p.rotation[1][i], stress, l);
   p.flux[0][i] = t.xx;
   p.flux[1][i] = t.xy;
@@ -68,50 +72,67 @@ void ReferenceBody<Dim>::set_flux(std::size_t i, const Symmetric& stress) {
   p.flux[3][i] = t.yy;
 }
 
-/// eq 17, eq 18: kernel gradients of the undeformed body and their correction L_i.
+template <int Dim>
+Vec<double, Dim> ReferenceBody<Dim>::vector_of(std::size_t i, int j) const {
+  if (vectors_) return (*vectors_)(i, j);
+  const RunData<Dim>& run = this->run_;
+  const Particles<Dim>& p = run.particles;
+  const auto k = static_cast<std::size_t>(j);
+  const Vec<double, Dim> r(p.start[0][k] - p.start[0][i], p.start[1][k] - p.start[1][i]);
+  const double slope = run.view.slope_norm * (p.volume[i] * p.volume[k]) *
+                       kernel_slope(run.setup.options.kernel, std::sqrt(r[0] * r[0] + r[1] * r[1]) / run.h);
+  return slope * r;
+}
+
+/// eq 18. The kernel's moment is symmetric; that of other vectors is no longer when some were cut.
+template <int Dim>
+Full ReferenceBody<Dim>::correction_of_row(const Full& moment) const {
+  if (!vectors_) return full(correction_of(Symmetric{moment.xx, moment.yy, moment.xy}));
+  return correction_of(moment);
+}
+
+/// eq 17, eq 18: the vectors of a row's bonds and their correction L_i.
 template <int Dim>
 void ReferenceBody<Dim>::write_row(std::size_t i) {
   RunData<Dim>& run = this->run_;
   Particles<Dim>& p = run.particles;
   Bonds<Dim>& bonds = this->bonds_;
   const std::vector<int>& list = this->lists_[i];
-  const Kernel kernel = run.setup.options.kernel;
   const std::size_t block = i / lanes;
   const auto first = static_cast<std::size_t>(bonds.column[block]);
   const auto width = static_cast<std::size_t>(bonds.column[block + 1]) - first;
-  const double h = run.h;
-  const double norm = kernel_norm<Dim>(kernel, h) / (h * h);
   const auto entry = [&](std::size_t k) { return (first + k) * lanes + i % lanes; };
-  Symmetric moment = {0.0, 0.0, 0.0};
+  Full moment = {0.0, 0.0, 0.0, 0.0};
   for (std::size_t k = 0; k < width; ++k) {
     const bool real = k < list.size();
     const std::size_t j = real ? static_cast<std::size_t>(list[k]) : i;
+    const Vec<double, Dim> w = real ? vector_of(i, list[k]) : Vec<double, Dim>(Vec<double, Dim>::Zero());
+    bonds.neighbour[entry(k)] = static_cast<int>(j);
+    bonds.weight[0][entry(k)] = w[0];
+    bonds.weight[1][entry(k)] = w[1];
     const double rx = p.start[0][j] - p.start[0][i];
     const double ry = p.start[1][j] - p.start[1][i];
-    const double q = std::sqrt(rx * rx + ry * ry) / h;
-    const double slope = real ? norm * (p.volume[i] * p.volume[j]) * kernel_slope(kernel, q) : 0.0;
-    bonds.neighbour[entry(k)] = static_cast<int>(j);
-    bonds.weight[0][entry(k)] = slope * rx;
-    bonds.weight[1][entry(k)] = slope * ry;
-    moment.xx += slope * rx * rx;
-    moment.yy += slope * ry * ry;
-    moment.xy += slope * rx * ry;
+    moment.xx += rx * w[0];
+    moment.xy += rx * w[1];
+    moment.yx += ry * w[0];
+    moment.yy += ry * w[1];
   }
   const double inverse = 1.0 / p.volume[i];
-  Symmetric c = correction_of({moment.xx * inverse, moment.yy * inverse, moment.xy * inverse});
+  Full c = correction_of_row({moment.xx * inverse, moment.xy * inverse, moment.yx * inverse, moment.yy * inverse});
   if (run.setup.options.momentum == MomentumForm::paper) {
     // L_i is on both stresses and on the velocity gradient alike: it goes into the weights of the row.
     for (std::size_t k = 0; k < width; ++k) {
       const double wx = bonds.weight[0][entry(k)];
       const double wy = bonds.weight[1][entry(k)];
       bonds.weight[0][entry(k)] = c.xx * wx + c.xy * wy;
-      bonds.weight[1][entry(k)] = c.xy * wx + c.yy * wy;
+      bonds.weight[1][entry(k)] = c.yx * wx + c.yy * wy;
     }
-    c = {1.0, 1.0, 0.0};
+    c = {1.0, 0.0, 0.0, 1.0};
   }
   p.correction[0][i] = c.xx;
   p.correction[1][i] = c.yy;
   p.correction[2][i] = c.xy;
+  p.correction[3][i] = c.yx;
 }
 
 template <int Dim>

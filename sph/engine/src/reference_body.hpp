@@ -1,8 +1,11 @@
-// Total Lagrangian: bonds and kernel gradients of the undeformed body, built once, cut where a crack has fully opened.
+// Total Lagrangian: bonds and their vectors in the undeformed body, built once, cut where a crack has fully opened.
 // Strain is U - I of the deformation gradient, stress stays in the frame that turns with the particle.
 #pragma once
 
+#include <optional>
+
 #include "body.hpp"
+#include "bond_vectors.hpp"
 
 namespace fpz::sph::detail {
 
@@ -26,10 +29,16 @@ class ReferenceBody final : public Body<Dim> {
  private:
   /// Weights and correction of one row from its list.
   void write_row(std::size_t i);
+  /// V_i V_j grad W_ij of the undeformed body, or what takes its place; padding has none.
+  [[nodiscard]] Vec<double, Dim> vector_of(std::size_t i, int j) const;
+  /// L_i from the moment of the row's vectors over its volume.
+  [[nodiscard]] Full correction_of_row(const Full& moment) const;
   /// Cuts bonds across open cracks (options.release_integrity).
   void release_bonds();
   /// Neighbours of a cracked particle beyond its crack, far enough away to let go.
   [[nodiscard]] std::vector<int> released_by(std::size_t i) const;
+
+  std::optional<BondVectors<Dim>> vectors_;  ///< none: those of the kernel
 };
 
 }  // namespace fpz::sph::detail

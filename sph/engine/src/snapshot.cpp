@@ -44,6 +44,7 @@ std::uint64_t fingerprint(const RunSetup<Dim>& s) {
   w(s.arrangement.position);
   w(s.arrangement.volume);
   w(s.arrangement.group);
+  for (const auto& line : s.arrangement.surface) w(line);
   w(s.velocity);
   for (const Cut<Dim>& cut : s.arrangement.cuts) w(cut.corner);
   for (const Group<Dim>& g : s.groups) {

@@ -62,8 +62,8 @@ template <int Dim>
 void UpdatedBody<Dim>::set_flux(std::size_t i, const Symmetric& stress) {
   Particles<Dim>& p = this->run_.particles;
   const bool plain = this->run_.setup.options.momentum == MomentumForm::paper;
-  const Symmetric l =
-      plain ? Symmetric{1.0, 1.0, 0.0} : Symmetric{p.correction[0][i], p.correction[1][i], p.correction[2][i]};
+  const Full l =
+      full(plain ? Symmetric{1.0, 1.0, 0.0} : Symmetric{p.correction[0][i], p.correction[1][i], p.correction[2][i]});
   const Full t = flux_of(1.0, 0.0, stress, l);
   p.flux[0][i] = t.xx;
   p.flux[1][i] = t.xy;

@@ -12,7 +12,8 @@ struct View {
   static constexpr std::size_t tensor = d * (d + 1) / 2;
 
   // Bonds: block b owns the columns column[b] .. column[b+1]; entry (column, lane) is at column * lanes + lane.
-  // weight = V_i V_j grad_i W_ij (reference, paper's momentum: L_i times that). Padding: the particle itself, weight 0.
+  // weight = V_i V_j grad_i W_ij or what takes its place (bond_vectors.hpp; paper's momentum: L_i times that). Padding:
+  // the particle itself, weight 0.
   const int* column = nullptr;
   const int* neighbour = nullptr;
   double* weight[d] = {};
@@ -30,7 +31,7 @@ struct View {
   const double* kind = nullptr;
   double* stress[tensor] = {};
   double* strain[tensor] = {};
-  double* correction[tensor] = {};
+  double* correction[d * d] = {};  // xx, yy, xy, yx; symmetric in updated
   double* artificial[tensor] = {};
   double* gradient[d * d] = {};
   double* flux[d * d] = {};

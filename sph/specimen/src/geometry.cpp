@@ -69,8 +69,9 @@ Intervals chord(const Shape& shape, double y) {
       shape);
 }
 
-std::vector<Point> arc(const Point& centre, double radius, double from, double to) {
-  constexpr int pieces = 180;
+constexpr int pieces_drawn = 180;  // of a circle or half circle
+
+std::vector<Point> arc(const Point& centre, double radius, double from, double to, int pieces) {
   std::vector<Point> line;
   for (int k = 0; k <= pieces; ++k) {
     const double angle = from + (to - from) * k / pieces;
@@ -84,18 +85,21 @@ std::vector<Point> closed(std::vector<Point> line) {
   return line;
 }
 
-std::vector<std::vector<Point>> outlines(const Shape& shape) {
+std::vector<std::vector<Point>> outlines(const Shape& shape, int pieces) {
   using Lines = std::vector<std::vector<Point>>;
-  return std::visit(Overload{[](const Rectangle& r) -> Lines {
-                               return {closed({r.low, Point(r.high[0], r.low[1]), r.high, Point(r.low[0], r.high[1])})};
-                             },
-                             [](const Disc& d) -> Lines { return {arc(d.centre, d.radius, 0.0, 2.0 * pi)}; },
-                             [](const HalfDisc& d) -> Lines { return {closed(arc(d.centre, d.radius, 0.0, pi))}; },
-                             [](const Ring& r) -> Lines {
-                               return {arc(r.centre, r.outer, 0.0, 2.0 * pi), arc(r.centre, r.inner, 0.0, 2.0 * pi)};
-                             },
-                             [](const Polygon& p) -> Lines { return {closed(p.corners)}; }},
-                    shape);
+  return std::visit(
+      Overload{[](const Rectangle& r) -> Lines {
+                 return {closed({r.low, Point(r.high[0], r.low[1]), r.high, Point(r.low[0], r.high[1])})};
+               },
+               [&](const Disc& d) -> Lines { return {arc(d.centre, d.radius, 0.0, 2.0 * pi, pieces)}; },
+               [&](const HalfDisc& d) -> Lines { return {closed(arc(d.centre, d.radius, 0.0, pi, pieces))}; },
+               [&](const Ring& r) -> Lines {
+                 Lines lines = {arc(r.centre, r.outer, 0.0, 2.0 * pi, pieces)};
+                 if (r.inner > 0.0) lines.push_back(arc(r.centre, r.inner, 0.0, 2.0 * pi, pieces));
+                 return lines;
+               },
+               [](const Polygon& p) -> Lines { return {closed(p.corners)}; }},
+      shape);
 }
 
 }  // namespace
@@ -197,15 +201,49 @@ std::vector<Point> corners(const Notch& n) {
 
 sph::Cut<2> cut_of(const Notch& n) { return {{n.mouth, n.tip}}; }
 
-std::vector<std::vector<Point>> outlines(const Body& body) {
-  std::vector<std::vector<Point>> lines = outlines(body.shape);
+namespace {
+
+std::vector<std::vector<Point>> outlines(const Body& body, int pieces) {
+  std::vector<std::vector<Point>> lines = outlines(body.shape, pieces);
   for (const Shape& hole : body.holes) {
-    for (auto& line : outlines(hole)) lines.push_back(std::move(line));
+    for (auto& line : outlines(hole, pieces)) lines.push_back(std::move(line));
   }
   for (const Notch& n : body.notches) {
     lines.push_back(n.width > 0.0 ? closed(corners(n)) : std::vector<Point>{n.mouth, n.tip});
   }
   return lines;
+}
+
+}  // namespace
+
+std::vector<std::vector<Point>> outlines(const Body& body) { return outlines(body, pieces_drawn); }
+
+std::vector<std::vector<Point>> surface_lines(const Body& body, double step) {
+  constexpr int pieces_of_arc = 720;  // normals within a quarter of a degree
+  std::vector<std::vector<Point>> surface;
+  for (const std::vector<Point>& line : outlines(body, pieces_of_arc)) {
+    std::vector<Point> part;
+    const auto finish = [&] {
+      if (part.size() > 1) surface.push_back(part);
+      part.clear();
+    };
+    for (std::size_t k = 0; k + 1 < line.size(); ++k) {
+      const Point d = line[k + 1] - line[k];
+      const int steps = std::max(1, static_cast<int>(std::ceil(d.norm() / step)));
+      const Point side = 1e-6 * step * Point(-d[1], d[0]).normalized();
+      for (int n = 0; n < steps; ++n) {
+        const Point from = line[k] + d * n / steps, middle = line[k] + d * (n + 0.5) / steps;
+        if (contains(body, middle + side) == contains(body, middle - side)) {
+          finish();
+          continue;
+        }
+        if (part.empty()) part.push_back(from);
+        part.push_back(n + 1 == steps ? line[k + 1] : Point(line[k] + d * (n + 1) / steps));
+      }
+    }
+    finish();
+  }
+  return surface;
 }
 
 }  // namespace fpz::specimen

@@ -70,6 +70,7 @@ Specimen make_specimen(const Scene& scene) {
     fail(scene, e.what());
   }
   for (const Notch& n : scene.body.notches) s.setup.arrangement.cuts.push_back(cut_of(n));
+  if (!scene.particles) s.setup.arrangement.surface = surface_lines(scene.body, 0.25 * scene.spacing);
   const sph::Arrangement<2>& a = s.setup.arrangement;
   for (std::size_t i = 0; i < a.size(); ++i) {
     if (a.group[i] == sph::Arrangement<2>::specimen) s.area += a.volume[i];

@@ -17,6 +17,8 @@ RunSetup<2> beam(double dx, double speed) {
   s.arrangement.spacing = dx;
   add_lattice<2>(s.arrangement, vec(-0.16, 0.0), vec(0.16, 0.08), Arrangement<2>::specimen,
                  [dx](const Vector& x) { return x[1] > 8e-3 || std::abs(x[0]) > dx; });
+  s.arrangement.surface = {{vec(-0.16, 0.0), vec(-dx, 0.0), vec(-dx, 8e-3), vec(dx, 8e-3), vec(dx, 0.0), vec(0.16, 0.0),
+                            vec(0.16, 0.08), vec(-0.16, 0.08), vec(-0.16, 0.0)}};
   const Motion still{0.0, 0.0};
   s.groups = {{"load", {still, Motion{-speed, 1e-3}}, true},
               {"left", {std::nullopt, still}, true},

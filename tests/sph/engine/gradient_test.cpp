@@ -98,7 +98,7 @@ TEST(Gradient, ConstantStressGivesNoForceInsideALattice) {
       double& largest = x > 5.0 && x < 11.0 && y > 5.0 && y < 10.0 ? inside : boundary;
       largest = std::max(largest, f);
     }
-    EXPECT_LT(inside, 1e-11 * boundary);
+    EXPECT_LT(inside, 1e-11 * boundary) << to_string(v.configuration) << to_string(v.momentum);
   }
 }
 

@@ -12,10 +12,10 @@ namespace {
 
 /// As many members as the table has entries: the binding does not compile with another number of either.
 TEST(OptionTable, HasEveryMember) {
-  static_assert(option_count<2> == 18);
+  static_assert(option_count<2> == 19);
   const Options<2> o;
-  const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, p, q, r, s] = o;
-  const std::set<const void*> members = {&a, &b, &c, &d, &e, &f, &g, &h, &i, &j, &k, &l, &m, &n, &p, &q, &r, &s};
+  const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, p, q, r, s, t] = o;
+  const std::set<const void*> members = {&a, &b, &c, &d, &e, &f, &g, &h, &i, &j, &k, &l, &m, &n, &p, &q, &r, &s, &t};
   std::set<const void*> visited;
   std::set<std::string_view> names;
   for_each_option(o, [&](const OptionInfo& info, const auto& member) {

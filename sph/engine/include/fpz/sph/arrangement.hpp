@@ -17,6 +17,9 @@ struct Arrangement {
   std::vector<double> volume;  ///< m^Dim
   std::vector<int> group;      ///< index of the boundary group, or specimen
   std::vector<Cut<Dim>> cuts;  ///< no particles interact across these, boundary particles included
+  /// Surface of the undeformed body as lines of straight pieces, closed ones end where they begin. Empty: the engine
+  /// estimates it from the particles.
+  std::vector<std::vector<Vec<double, Dim>>> surface;
 
   static constexpr int specimen = -1;
 

@@ -52,6 +52,10 @@ inline constexpr auto option_table = std::tuple{
     OptionEntry{{.name = "momentum",
                  .text = "`adjoint` (conserves momentum) or `paper` (eq 20)"},
                 &Options<Dim>::momentum},
+    OptionEntry{{.name = "gradient",
+                 .text = "reference: `consistent` (constant stress is in equilibrium on any arrangement; not with "
+                         "momentum `paper`) or `kernel` (corrected kernel gradients, eq 17)"},
+                &Options<Dim>::gradient},
     OptionEntry{{.name = "kernel",
                  .text = "`cubic_spline` or `wendland_c2`"},
                 &Options<Dim>::kernel},

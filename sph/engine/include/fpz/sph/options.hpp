@@ -20,6 +20,12 @@ enum class MomentumForm : std::uint8_t {
   paper     ///< eq 20: L_i on both stresses
 };
 
+/// What the gradients and forces of the reference configuration are made of.
+enum class Gradient : std::uint8_t {
+  consistent,  ///< vectors of the bonds that keep constant stress in equilibrium; the paper's momentum form has none
+  kernel       ///< kernel gradients with L_i, eq 17
+};
+
 /// What the length H of a cracked particle is.
 struct RveLength {
   enum class Rule : std::uint8_t {
@@ -38,6 +44,7 @@ template <int Dim>
 struct Options {
   Configuration configuration = Configuration::reference;
   MomentumForm momentum = MomentumForm::adjoint;
+  Gradient gradient = Gradient::consistent;
   Kernel kernel = Kernel::cubic_spline;
   double smoothing_ratio = 1.2;  ///< h / spacing
   double courant = 0.5;          ///< largest time step in units of h/sqrt(E/rho), eq 32 (see time_step())
@@ -75,6 +82,12 @@ template <>
 struct Words<sph::MomentumForm> {
   static constexpr Word<sph::MomentumForm> list[] = {{sph::MomentumForm::adjoint, "adjoint"},
                                                      {sph::MomentumForm::paper, "paper"}};
+};
+
+template <>
+struct Words<sph::Gradient> {
+  static constexpr Word<sph::Gradient> list[] = {{sph::Gradient::consistent, "consistent"},
+                                                 {sph::Gradient::kernel, "kernel"}};
 };
 
 template <>

@@ -35,9 +35,9 @@ struct Particles {
   Field length;           ///< H, m; with RveLength::Rule::band of cracked particles only, else their size
   Field fracture;         ///< energy dissipated by the crack, J: the sum of volume times its density over the steps
   Field kind;
-  Fields<tensor_size<Dim>> stress;        ///< reference: in the frame that turns with the particle
-  Fields<tensor_size<Dim>> strain;        ///< reference: U - I; updated: increment of the last step
-  Fields<tensor_size<Dim>> correction;    ///< L_i, or the identity in the reference form with paper's momentum
+  Fields<tensor_size<Dim>> stress;  ///< reference: in the frame that turns with the particle
+  Fields<tensor_size<Dim>> strain;  ///< reference: U - I; updated: increment of the last step
+  Fields<Dim * Dim> correction;     ///< L_i: xx, yy, xy, yx; the identity in the reference form with paper's momentum
   Fields<tensor_size<Dim>> artificial;    ///< updated: artificial stress of the particle, Pa
   Fields<Dim * Dim> gradient;             ///< reference: F - I, row-major; updated: not used
   Fields<Dim * Dim> flux;                 ///< what the force sums: stress times correction, row-major

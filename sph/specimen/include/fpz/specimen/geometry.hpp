@@ -69,6 +69,10 @@ struct Body {
 /// The centre line of the notch.
 [[nodiscard]] sph::Cut<2> cut_of(const Notch& notch);
 
+/// The surface of the body in pieces no longer than `step` (m): what of its outlines has the body on one side only.
+/// Lines that close end where they begin; notches without width are not among them.
+[[nodiscard]] std::vector<std::vector<Point>> surface_lines(const Body& body, double step);
+
 /// Closed lines for drawing: outer boundary first, then holes and slots.
 [[nodiscard]] std::vector<std::vector<Point>> outlines(const Body& body);
 
