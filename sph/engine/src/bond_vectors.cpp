@@ -119,7 +119,7 @@ void VectorProblem::make_constraints() {
   for (std::size_t i = 0; i < count(); ++i) {
     Particle& p = particles_[i];
     Symmetric m = {1.0, 1.0, 0.0};
-    if (free[i].count > 0 || free[i].at_platen || is_poor(moment[i])) {
+    if (free[i].count > 0 || is_poor(moment[i])) {
       m = moment[i];
       const Symmetric l = correction_of(m);
       correction[i] << l.xx, l.xy, l.xy, l.yy;

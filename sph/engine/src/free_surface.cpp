@@ -281,7 +281,7 @@ std::vector<FreeDirections<Dim>> find_free_directions(const RunData<Dim>& run) {
   const DescribedSurface described(run, reach);
   for (std::size_t i = 0; i < all.size(); ++i) {
     described.look(start_of(run.particles, i), all[i]);
-    if (is_prescribed(run, i)) all[i].count = 2;
+    if (is_prescribed(run, i) || all[i].at_platen) all[i].count = 2;
   }
   return all;
 }

@@ -14,12 +14,12 @@ template <int Dim>
 struct FreeDirections {
   int count = 0;                                        ///< 0: none, 1: `normal`, 2: all
   Vec<double, Dim> normal = Vec<double, Dim>::UnitX();  ///< unit vector, either way
-  bool at_platen = false;                               ///< it is near particles of a group
+  bool at_platen = false;                               ///< it is near particles of a group: all are free
 };
 
 /// For every particle. From the lines of the surface and the cuts where the arrangement has them; else the surface is
-/// estimated from the particles. All directions of a particle with a prescribed motion are free, and a surface that is
-/// covered by particles of a group is none.
+/// estimated from the particles. All directions are free where a motion is prescribed, and beside platens: how their
+/// particles lie on the surface is rough, and balance imposed there goes at the cost of what lies around.
 template <int Dim>
 [[nodiscard]] std::vector<FreeDirections<Dim>> find_free_directions(const RunData<Dim>& run);
 

@@ -219,7 +219,7 @@ std::vector<std::vector<Point>> outlines(const Body& body, int pieces) {
 std::vector<std::vector<Point>> outlines(const Body& body) { return outlines(body, pieces_drawn); }
 
 std::vector<std::vector<Point>> surface_lines(const Body& body, double step) {
-  constexpr int pieces_of_arc = 720;  // normals within a quarter of a degree
+  constexpr int pieces_of_arc = 1440;  // chords within 3e-6 of the radius, normals within an eighth of a degree
   std::vector<std::vector<Point>> surface;
   for (const std::vector<Point>& line : outlines(body, pieces_of_arc)) {
     std::vector<Point> part;
@@ -230,7 +230,7 @@ std::vector<std::vector<Point>> surface_lines(const Body& body, double step) {
     for (std::size_t k = 0; k + 1 < line.size(); ++k) {
       const Point d = line[k + 1] - line[k];
       const int steps = std::max(1, static_cast<int>(std::ceil(d.norm() / step)));
-      const Point side = 1e-6 * step * Point(-d[1], d[0]).normalized();
+      const Point side = 0.05 * step * Point(-d[1], d[0]).normalized();
       for (int n = 0; n < steps; ++n) {
         const Point from = line[k] + d * n / steps, middle = line[k] + d * (n + 0.5) / steps;
         if (contains(body, middle + side) == contains(body, middle - side)) {

@@ -90,6 +90,7 @@ Comparison pressed(double inner, double spacing, specimen::Pattern::Kind kind) {
   RunSetup<2> s;
   s.parameters = unbreakable();
   s.arrangement = specimen::place_specimen(body, {kind, 0.0, Point::Zero(), false}, spacing);
+  s.arrangement.surface = specimen::surface_lines(body, 0.25 * spacing);
   const std::size_t specimen = s.arrangement.size();
   specimen::place_platen(s.arrangement, body.shape, {Point(1.0, 0.0), Point(1.0, 0.0), 2.0 * half_width, 3}, 0);
   specimen::place_platen(s.arrangement, body.shape, {Point(-1.0, 0.0), Point(-1.0, 0.0), 2.0 * half_width, 3}, 1);

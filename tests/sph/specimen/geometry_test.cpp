@@ -49,4 +49,22 @@ TEST(Geometry, ContainsKnowsNotchesAndHoles) {
   EXPECT_TRUE(contains(b, Point(-0.3, 0.3)));  // beyond the tip
 }
 
+/// All of the surface and nothing else: its length, also where a slot opens it and where arcs are made of chords.
+TEST(Geometry, SurfaceLinesHaveTheLengthOfTheSurface) {
+  const auto length = [](const Body& b) {
+    double sum = 0.0;
+    for (const auto& line : surface_lines(b, 0.01)) {
+      for (std::size_t k = 1; k < line.size(); ++k) sum += (line[k] - line[k - 1]).norm();
+    }
+    return sum;
+  };
+  constexpr double circle = 2.0 * 3.14159265358979;
+  EXPECT_NEAR(length({Disc{Point(0, 0), 1.0}, {}, {}}), circle, 1e-4);
+  EXPECT_NEAR(length({Ring{Point(0, 0), 0.3, 1.0}, {}, {}}), 1.3 * circle, 1e-4);
+  EXPECT_NEAR(length({Disc{Point(0, 0), 1.0}, {Disc{Point(0.2, 0.1), 0.2}}, {}}), 1.2 * circle, 1e-4);
+  const Rectangle sheet{Point(0, 0), Point(2, 1)};
+  EXPECT_NEAR(length({sheet, {}, {{Point(1, 0), Point(1, 0.4), 0.0}}}), 6.0, 1e-12);
+  EXPECT_NEAR(length({sheet, {}, {{Point(1, 0), Point(1, 0.4), 0.2}}}), 6.8, 0.03);
+}
+
 }  // namespace
