@@ -380,14 +380,17 @@ template <class Law>
 
 /// Energy t.flow dissipated in a step of the consistent zone from w0 to w1 over the inelastic displacement `a`, J/m^2,
 /// from tau.flow/a at its ends (Pa): exact where that is constant, as in pure opening, and where it goes as 1/w, as in
-/// friction.
+/// friction. What a separated zone that is not `closed` still carries does not count, as in accurate.
 template <class T, class Softening>
-[[nodiscard]] T flow_work(const Softening& softening, double p0, const T& p1, const T& w0, const T& w1, const T& a) {
+[[nodiscard]] T flow_work(const Softening& softening, double p0, const T& p1, const T& w0, const T& w1, const T& a,
+                          bool closed) {
+  const bool settles = softening.piece(value(w1)) == settled_piece;
+  if (settles && !closed && value(w0) == value(w1)) return T(0.0);
   if (value(w0) - value(w1) <= 1e-6 * value(w0)) return 0.25 * (p0 + p1) * (w0 + w1) * a;
   const T area = softening.dissipated(Dissipation<double>{1.0, 0.0}, Dissipation<T>{T(1.0), T(0.0)}, w0, w1);
-  const bool settles = softening.piece(value(w1)) == settled_piece;
   const T fall = settles ? softening.fall(w0, w1) : a;  // the rest goes on at the least integrity
-  return p0 * area + (p1 - p0) / (1.0 / w1 - 1.0 / w0) * (fall - area / w0) + p1 * w1 * (a - fall);
+  return p0 * area + (p1 - p0) / (1.0 / w1 - 1.0 / w0) * (fall - area / w0) +
+         (closed ? T(p1 * w1 * (a - fall)) : T(0.0));
 }
 
 /// One backward Euler step over the drive d0 -> d1. The solve runs on plain values; one Newton step in T carries
@@ -467,8 +470,8 @@ template <class T, int Dim, class Law>
   if (consistent) {
     const Vec<T, Dim> e = elastic_compliance<T, Dim>(zone, point.w);
     for (int k = 0; k < Dim; ++k) end.plastic_jump[k] = d1[k] - e[k] * traction[k];
-    end.dissipated =
-        begin.dissipated + flow_work(zone.law.softening, root.entry.plastic, dissipated.plastic, w, point.w, a);
+    end.dissipated = begin.dissipated + flow_work(zone.law.softening, root.entry.plastic, dissipated.plastic, w,
+                                                  point.w, a, value(point.hyp.normal) < 0.0);
   } else {
     end.dissipated = begin.dissipated + zone.law.softening.dissipated(root.entry, dissipated, w, point.w);
   }
