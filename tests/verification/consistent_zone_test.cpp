@@ -1,5 +1,6 @@
 // The consistent cohesive zone against what it promises: nothing stored at onset, never less than nothing later, the
-// fracture energy of the paper in closed form for any stiffness, no work out of a closed cycle, and friction that lasts.
+// fracture energy of the paper in closed form for any stiffness, no work out of a closed cycle, and friction that
+// lasts.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -92,8 +93,8 @@ TEST(ConsistentZone, ModeOneIsExact) {
   }
 }
 
-/// Mode II without normal traction, on paper: tau stays (0, tau0), tau0^2 = c0^2 - A^2, the flow (m, 1)/(1 + m); the work
-/// is tau0 delta0/(1 + m) for any Ks. The drive that keeps t_n = 0 is followed in short chords.
+/// Mode II without normal traction, on paper: tau stays (0, tau0), tau0^2 = c0^2 - A^2, the flow (m, 1)/(1 + m); the
+/// work is tau0 delta0/(1 + m) for any Ks. The drive that keeps t_n = 0 is followed in short chords.
 TEST(ConsistentZone, FractureEnergyInModeTwo) {
   for (const double k : stiffnesses) {
     SCOPED_TRACE(k);
@@ -122,8 +123,9 @@ TEST(ConsistentZone, FractureEnergyInModeTwo) {
   }
 }
 
-/// Sliding 1000 delta0 under pressure, in few updates and sub-steps: the friction that is left is tan(phi) exactly. Turned
-/// round, the faces stick: the traction falls with Ks in series with the bulk, over 2 tan(phi) t_n, and slides back.
+/// Sliding 1000 delta0 under pressure, in few updates and sub-steps: the friction that is left is tan(phi) exactly.
+/// Turned round, the faces stick: the traction falls with Ks in series with the bulk, over 2 tan(phi) t_n, and slides
+/// back.
 TEST(ConsistentZone, FrictionLastsAndStartsAgain) {
   for (const Word<SofteningKind>& softening : Words<SofteningKind>::list) {
     for (const Method method : methods) {
@@ -170,8 +172,8 @@ TEST(ConsistentZone, FrictionLastsAndStartsAgain) {
   }
 }
 
-/// Opened to nothing, then closed: contact begins where the plastic jump is, is as stiff as Kn and the bulk, and carries
-/// friction.
+/// Opened to nothing, then closed: contact begins where the plastic jump is, is as stiff as Kn and the bulk, and
+/// carries friction.
 TEST(ConsistentZone, ContactAfterOpening) {
   for (const Method method : methods) {
     const Parameters p = consistent(table1(1e-3));
@@ -241,8 +243,8 @@ TEST(ConsistentZone, SnapBackLengthIsSharp) {
   }
 }
 
-/// On paper for the exponential law, with L = delta0/sigma_t0 and F = 1/Kn: (lambda + 2 mu) (L + F/2), or (sqrt(6 F L) - F)
-/// where F > 2 L/3.
+/// On paper for the exponential law, with L = delta0/sigma_t0 and F = 1/Kn: (lambda + 2 mu) (L + F/2), or (sqrt(6 F L)
+/// - F) where F > 2 L/3.
 TEST(ConsistentZone, SnapBackLengthInClosedForm) {
   for (const double k : stiffnesses) {
     const Parameters p = with_stiffness(consistent(table1()), k);

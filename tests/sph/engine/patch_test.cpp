@@ -19,8 +19,7 @@ RunSetup<2> patch(int columns, int rows, double moved) {
   std::uniform_real_distribution<double> shift(-moved * size, moved * size);
   for (Vector& x : s.arrangement.position) x += vec(shift(rng), shift(rng));
   const double width = columns * size, height = rows * size;
-  s.arrangement.surface = {
-      {vec(0.0, 0.0), vec(width, 0.0), vec(width, height), vec(0.0, height), vec(0.0, 0.0)}};
+  s.arrangement.surface = {{vec(0.0, 0.0), vec(width, 0.0), vec(width, height), vec(0.0, height), vec(0.0, 0.0)}};
   return s;
 }
 
