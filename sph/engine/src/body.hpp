@@ -25,9 +25,6 @@ class Body {
   /// Forces at n, velocities to n + 1/2; `view` has the step of this kick.
   virtual void force(const View<Dim>& view) = 0;
 
-  /// Viscosity (Pa s) against the velocities that its gradient does not see, zero for none.
-  [[nodiscard]] virtual double zero_energy_viscosity() const { return 0.0; }
-
   /// What cannot be found from the particles, for snapshots; load() makes what follows from it, after the particles.
   virtual void save(Writer& archive) const = 0;
   virtual void load(Reader& archive) = 0;

@@ -42,15 +42,6 @@ void BondedPlaten<Dim>::act(double step) {
 }
 
 template <int Dim>
-void BondedPlaten<Dim>::predict() {
-  Particles<Dim>& p = this->run_.particles;
-  for (const Component& d : prescribed_) {
-    const double before = p.velocity[d.component][d.slot] - this->run_.dt * p.acceleration[d.component][d.slot];
-    p.predicted[d.component][d.slot] = 0.5 * (before + prescribed_velocity(d.component));
-  }
-}
-
-template <int Dim>
 void BondedPlaten<Dim>::hold() {
   for (const Component& d : prescribed_) this->run_.particles.velocity[d.component][d.slot] = 0.0;
 }

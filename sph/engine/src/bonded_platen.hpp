@@ -13,7 +13,6 @@ class BondedPlaten final : public Boundary<Dim> {
   BondedPlaten(RunData<Dim>& run, std::size_t group);
 
   void act(double step) override;
-  void predict() override;
   void hold() override;
   /// What the motion of its particles lacks, from their momentum balance; zero in free components.
   [[nodiscard]] Vec<double, Dim> reaction() const override { return reaction_; }

@@ -35,6 +35,10 @@ struct Bonds {
   Field closeness;
 
   [[nodiscard]] std::size_t entries() const { return neighbour.size(); }
+  /// Place of the k-th neighbour of particle i.
+  [[nodiscard]] std::size_t entry(std::size_t i, std::size_t k) const {
+    return (static_cast<std::size_t>(column[i / lanes]) + k) * lanes + i % lanes;
+  }
 };
 
 /// Lays the lists out; weights are zero, `with_closeness` allocates that field too.

@@ -22,8 +22,6 @@ class Boundary {
 
   /// Velocities to n + 1/2 over `step` (s; half a time step at the start); its work goes to the ledger.
   virtual void act(double step) = 0;
-  /// Puts velocities at n that it knows better than the extrapolation into Particles::predicted.
-  virtual void predict() {}
   /// Its homogeneous form, for the frequencies of the body: zero velocity where it is prescribed.
   virtual void hold() {}
   /// Force that it exerts at n, N (per metre of thickness in 2-D).

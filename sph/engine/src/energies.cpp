@@ -39,6 +39,7 @@ Energies Engine<Dim>::energies() const {
                       (p.position[c][i] - p.start[c][i]);
     }
   }
+  sum.zero_energy = control ? control->stored() : 0.0;
   sum.viscous = ledger.zero_energy;
   for (const double w : ledger.viscous) sum.viscous += w;
   for (const double w : ledger.damping) sum.damping += w;

@@ -11,8 +11,10 @@ namespace fpz::sph::detail {
 template <int Dim>
 Engine<Dim>::Engine(const RunSetup<Dim>& setup, double time_step)
     : run(setup, time_step), boundaries(make_boundaries(run)), body(make_body(run)) {
-  const double viscosity = body->zero_energy_viscosity();
-  if (viscosity > 0.0) control.emplace(run, body->lists(), viscosity);
+  const Options<Dim>& options = setup.options;
+  if (options.configuration == Configuration::reference && options.zero_energy_control > 0.0) {
+    control.emplace(run, options.zero_energy_control);
+  }
 }
 
 template <int Dim>
@@ -22,6 +24,7 @@ Outcome Engine<Dim>::step() {
   // 1. Positions at n + 1 (eq 31); densities, stresses and cracks there (eq 19, eq 21).
   const Outcome outcome = body->advance();
   if (!outcome.ok()) return outcome;
+  if (control) control->advance(run.dt);
   // 2. Forces at n + 1 (eq 20), velocities at n + 3/2 (eq 26).
   kick(run.dt);
   return find_bad();
@@ -43,11 +46,9 @@ void Engine<Dim>::kick(double step) {
   view.step = step;
   view.work_before = run.started ? 0.5 * run.dt : 0.0;
   view.work_after = 0.5 * run.dt;
+  if (control) control->act();
   body->force(view);
-  const bool controlled = control && control->due();
-  if (controlled) control->act(boundaries);
   for (const auto& boundary : boundaries) boundary->act(step);
-  if (control) control->account(controlled);
 }
 
 /// The first particle whose velocity the last kick has made too large or not finite.

@@ -111,7 +111,8 @@ FPZ_LANE void account(double* total, double* next, Index b, const double (&befor
   next[b] = lane_sum(after);
 }
 
-/// Velocity to n + 1/2 from the force at n (eq 23 at the start, then eq 26), with gravity and local damping.
+/// Velocity to n + 1/2 from the force at n (eq 23 at the start, then eq 26), with gravity, zero-energy control and
+/// local damping.
 FPZ_LANE void kick(const V& v, Index b, double (&fx)[n], double (&fy)[n]) {
   const Index o = b * n;
   double slow[n], before[n], after[n];
@@ -120,6 +121,10 @@ FPZ_LANE void kick(const V& v, Index b, double (&fx)[n], double (&fy)[n]) {
     const double weight = v.mass[i] * v.weight_scale;
     double gx = fx[l] + weight * v.gravity[0];
     double gy = fy[l] + weight * v.gravity[1];
+    if (v.controlled) {
+      gx += v.zero_energy_force[0][i];
+      gy += v.zero_energy_force[1][i];
+    }
     const double ux = v.velocity[0][i];
     const double uy = v.velocity[1][i];
     double dx = 0.0;
@@ -165,63 +170,64 @@ void force_reference(const V& v, Index first, Index last) {
   }
 }
 
-/// Gradient of the velocities at n: what the zero-energy control leaves alone.
+/// Displacement gradient that fits the bonds of the zero-energy control best: what it leaves alone.
 void gradient_zero_energy(const V& v, Index first, Index last) {
+  const double *x = v.zero_energy_displacement[0], *y = v.zero_energy_displacement[1];
   for (Index b = first; b < last; ++b) {
     const Index o = b * n;
     double xx[n] = {}, xy[n] = {}, yx[n] = {}, yy[n] = {};
-    difference_sums(v, b, v.predicted[0], v.predicted[1], xx, xy, yx, yy);
-    FPZ_LANES {
-      const Index i = o + l;
-      const Full c = {v.correction[0][i], v.correction[2][i], v.correction[3][i], v.correction[1][i]};
-      const double inverse = 1.0 / v.volume[i];
-      v.zero_energy_rate[0][i] = inverse * (xx[l] * c.xx + xy[l] * c.yx);
-      v.zero_energy_rate[1][i] = inverse * (xx[l] * c.xy + xy[l] * c.yy);
-      v.zero_energy_rate[2][i] = inverse * (yx[l] * c.xx + yy[l] * c.yx);
-      v.zero_energy_rate[3][i] = inverse * (yx[l] * c.xy + yy[l] * c.yy);
-    }
-  }
-}
-
-/// Opposes the relative velocities that those gradients do not explain. Along the present line of the bond, so that the
-/// force of a pair makes no moment; weighted with the kernel of the undeformed body.
-template <Kernel K>
-void force_zero_energy(const V& v, Index first, Index last) {
-  const double *sx = v.start[0], *sy = v.start[1], *x = v.position[0], *y = v.position[1];
-  const double *ux = v.predicted[0], *uy = v.predicted[1], *volume = v.volume;
-  const double *axx = v.zero_energy_rate[0], *axy = v.zero_energy_rate[1];
-  const double *ayx = v.zero_energy_rate[2], *ayy = v.zero_energy_rate[3];
-  const double core = 0.01 * v.smoothing * v.smoothing;
-  for (Index b = first; b < last; ++b) {
-    const Index o = b * n;
-    double fx[n] = {}, fy[n] = {};
-    for (int k = v.column[b]; k < v.column[b + 1]; ++k) {
-      const int* j = v.neighbour + Index{k} * n;
+    for (int k = v.zero_energy_column[b]; k < v.zero_energy_column[b + 1]; ++k) {
+      const Index m = Index{k} * n;
+      const int* j = v.zero_energy_neighbour + m;
+      const double* wx = v.zero_energy_weight[0] + m;
+      const double* wy = v.zero_energy_weight[1] + m;
       FPZ_LANES {
-        const Index i = o + l;
-        const double rx = sx[j[l]] - sx[i];
-        const double ry = sy[j[l]] - sy[i];
-        const double dx = x[j[l]] - x[i];
-        const double dy = y[j[l]] - y[i];
-        const double q = __builtin_sqrt(rx * rx + ry * ry) * v.inverse_smoothing;
-        const double slope = v.slope_norm * (volume[i] * volume[j[l]]) * kernel_slope<K>(q);
-        const double ex = ux[j[l]] - ux[i] - 0.5 * ((axx[i] + axx[j[l]]) * rx + (axy[i] + axy[j[l]]) * ry);
-        const double ey = uy[j[l]] - uy[i] - 0.5 * ((ayx[i] + ayx[j[l]]) * rx + (ayy[i] + ayy[j[l]]) * ry);
-        const double pull = v.zero_energy_viscosity * slope * (ex * dx + ey * dy) / (dx * dx + dy * dy + core);
-        fx[l] += pull * dx;
-        fy[l] += pull * dy;
+        const double ux = x[j[l]] - x[o + l];
+        const double uy = y[j[l]] - y[o + l];
+        xx[l] += ux * wx[l];
+        xy[l] += ux * wy[l];
+        yx[l] += uy * wx[l];
+        yy[l] += uy * wy[l];
       }
     }
     FPZ_LANES {
       const Index i = o + l;
-      v.zero_energy_force[0][i] = fx[l];
-      v.zero_energy_force[1][i] = fy[l];
-      const double ax = fx[l] * v.inverse_mass[i];
-      const double ay = fy[l] * v.inverse_mass[i];
-      v.acceleration[0][i] += ax;
-      v.acceleration[1][i] += ay;
-      v.velocity[0][i] += v.step * ax;
-      v.velocity[1][i] += v.step * ay;
+      const Symmetric f = {v.zero_energy_fit[0][i], v.zero_energy_fit[1][i], v.zero_energy_fit[2][i]};
+      v.zero_energy_gradient[0][i] = xx[l] * f.xx + xy[l] * f.xy;
+      v.zero_energy_gradient[1][i] = xx[l] * f.xy + xy[l] * f.yy;
+      v.zero_energy_gradient[2][i] = yx[l] * f.xx + yy[l] * f.xy;
+      v.zero_energy_gradient[3][i] = yx[l] * f.xy + yy[l] * f.yy;
+    }
+  }
+}
+
+/// Opposes the relative displacements that the mean of the two gradients does not explain: the derivative of
+/// 1/4 sum k_ij |u_j - u_i - G_i r_ij|^2 over all i and j, in which the gradients need no derivative because they
+/// minimise it.
+void force_zero_energy(const V& v, Index first, Index last) {
+  const double *x = v.zero_energy_displacement[0], *y = v.zero_energy_displacement[1];
+  const double *gxx = v.zero_energy_gradient[0], *gxy = v.zero_energy_gradient[1];
+  const double *gyx = v.zero_energy_gradient[2], *gyy = v.zero_energy_gradient[3];
+  for (Index b = first; b < last; ++b) {
+    const Index o = b * n;
+    double fx[n] = {}, fy[n] = {};
+    for (int k = v.zero_energy_column[b]; k < v.zero_energy_column[b + 1]; ++k) {
+      const Index m = Index{k} * n;
+      const int* j = v.zero_energy_neighbour + m;
+      const double* stiffness = v.zero_energy_stiffness + m;
+      const double* wx = v.zero_energy_weight[0] + m;
+      const double* wy = v.zero_energy_weight[1] + m;
+      FPZ_LANES {
+        const Index i = o + l;
+        const double ux = x[j[l]] - x[i];
+        const double uy = y[j[l]] - y[i];
+        fx[l] += stiffness[l] * ux - 0.5 * ((gxx[i] + gxx[j[l]]) * wx[l] + (gxy[i] + gxy[j[l]]) * wy[l]);
+        fy[l] += stiffness[l] * uy - 0.5 * ((gyx[i] + gyx[j[l]]) * wx[l] + (gyy[i] + gyy[j[l]]) * wy[l]);
+      }
+    }
+    FPZ_LANES {
+      v.zero_energy_force[0][o + l] = fx[l];
+      v.zero_energy_force[1][o + l] = fy[l];
     }
   }
 }
@@ -382,7 +388,7 @@ constexpr Passes<2> passes = {drift,
                               gradient_reference,
                               force_reference,
                               gradient_zero_energy,
-                              force_zero_energy<K>,
+                              force_zero_energy,
                               gradient_updated<K, PaperMomentum>,
                               force_updated<K, PaperMomentum>};
 

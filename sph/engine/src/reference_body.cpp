@@ -43,14 +43,6 @@ void ReferenceBody<Dim>::force(const View<Dim>& view) {
   this->run_.for_chunks([&](Index first, Index last) { pass(view, first, last); });
 }
 
-/// With mass scaling so that its rate keeps its ratio to the time step.
-template <int Dim>
-double ReferenceBody<Dim>::zero_energy_viscosity() const {
-  const RunData<Dim>& run = this->run_;
-  return run.setup.options.zero_energy_control * run.view.rest_density * run.view.sound_speed * run.h *
-         std::sqrt(run.setup.options.mass_scale);
-}
-
 template <int Dim>
 Tensor<double, Dim> ReferenceBody<Dim>::strain_increment(std::size_t i, const State<double, Dim>& begin) const {
   Tensor<double, Dim> increment;

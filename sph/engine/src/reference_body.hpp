@@ -16,7 +16,6 @@ class ReferenceBody final : public Body<Dim> {
 
   [[nodiscard]] Outcome advance() override;
   void force(const View<Dim>& view) override;
-  [[nodiscard]] double zero_energy_viscosity() const override;
   void save(Writer& archive) const override { this->transfer_lists(archive, *this); }
   void load(Reader& archive) override;
 

@@ -34,6 +34,11 @@ double Engine<Dim>::largest_frequency() {
     const Fields<Dim> before = p.velocity;
     for (Field& g : p.gradient) std::fill(g.begin(), g.end(), 0.0);
     run.for_chunks([&](Index first, Index last) { run.passes->gradient_reference(v, first, last); });
+    if (control) {
+      control->forget_displacements();
+      control->advance(1.0);
+      control->act();
+    }
     run.for_chunks([&](Index first, Index last) { run.passes->force_reference(v, first, last); });
     double kinetic_norm = 0.0;
     double elastic_norm = 0.0;
@@ -68,7 +73,6 @@ double stability_limit(const RunSetup<Dim>& setup) {
   elastic.velocity.clear();
   detail::Engine<Dim> engine(elastic, 1.0);
   double limit = 2.0 / engine.largest_frequency();
-  if (engine.control) limit = std::min(limit, 2.0 / engine.control->rate());
   for (const auto& boundary : engine.boundaries) limit = std::min(limit, boundary->stable_step());
   return limit;
 }

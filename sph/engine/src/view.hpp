@@ -35,8 +35,15 @@ struct View {
   double* artificial[tensor] = {};
   double* gradient[d * d] = {};
   double* flux[d * d] = {};
-  double* zero_energy_rate[d * d] = {};  // reference: gradient of `predicted` when the zero-energy control acts
-  double* zero_energy_force[d] = {};     // and the force that it then exerts, N
+  // Reference: the zero-energy control, with bonds of its own, packed as above.
+  const int* zero_energy_column = nullptr;
+  const int* zero_energy_neighbour = nullptr;
+  const double* zero_energy_stiffness = nullptr;  // k_ij, N/m
+  const double* zero_energy_weight[d] = {};       // k_ij r_ij, N
+  const double* zero_energy_fit[tensor] = {};     // inverse of sum k_ij r_ij (x) r_ij
+  double* zero_energy_displacement[d] = {};
+  double* zero_energy_gradient[d * d] = {};
+  double* zero_energy_force[d] = {};
   double* rotation[2] = {};
   const double* damping[d] = {};  // per component: zero where the velocity is prescribed
   unsigned char* flagged = nullptr;
@@ -64,7 +71,7 @@ struct View {
   double reference_shape = 1.0;
   double rest_density = 0.0, sound_speed = 0.0, viscosity_alpha = 0.0, viscosity_beta = 0.0;
   double artificial_stress = 0.0;
-  double zero_energy_viscosity = 0.0;  // Pa s, times the number of steps that one action of the control stands for
+  bool controlled = false;  // the zero-energy control is on
 };
 
 /// Number of a block, or of an entry of the arrays above.
@@ -77,8 +84,8 @@ struct Passes {
   Pass drift;                 ///< position += step velocity; predicted velocity of the full step
   Pass gradient_reference;    ///< velocity gradient -> F, rotation, strain, elastic stress, flux, onset flags
   Pass force_reference;       ///< internal force, damping, kick
-  Pass gradient_zero_energy;  ///< reference: gradient of the predicted velocity
-  Pass force_zero_energy;     ///< reference: what opposes relative velocities beyond that gradient, kick
+  Pass gradient_zero_energy;  ///< reference: displacement gradient that fits the bonds of the zero-energy control
+  Pass force_zero_energy;     ///< reference: what opposes displacements beyond that gradient
   Pass gradient_updated;      ///< kernel, L_i, velocity gradient -> density, rotated stress, flux, onset flags
   Pass force_updated;         ///< the same with artificial viscosity and stress
 };

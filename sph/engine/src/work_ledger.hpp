@@ -9,7 +9,7 @@ namespace fpz::sph::detail {
 template <int Dim>
 struct WorkLedger {
   double external = 0.0;                        ///< J, of the boundaries
-  double zero_energy = 0.0;                     ///< J, taken by the zero-energy control
+  double zero_energy = 0.0;                     ///< J, that the zero-energy control held in bonds that ended
   double kinetic_start = 0.0;                   ///< J
   Field damping, viscous, artificial;           ///< J, taken so far, per block
   Field damping_next;                           ///< J, what the damping force at n will have taken by n + 1/2

@@ -1,71 +1,168 @@
 #include "zero_energy_control.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "chunks.hpp"
+#include "plane.hpp"
 
 namespace fpz::sph::detail {
 
+namespace {
+
+/// Smoothing length of the kernel that weights the bonds, in spacings: it ends at two spacings. On a square lattice the
+/// eight nearest neighbours with the weights 4 and 1 of the isotropic Laplacian.
+constexpr double control_smoothing = 1.0;
+
+/// Inverse of a moment matrix; along a direction without bonds (which needs no gradient either) zero.
+Symmetric inverse_of(const Symmetric& a) {
+  constexpr double nothing = 1e-9;  // of the larger eigenvalue
+  const double determinant = a.xx * a.yy - a.xy * a.xy;
+  const double trace = a.xx + a.yy;
+  if (determinant > nothing * trace * trace) return {a.yy / determinant, a.xx / determinant, -a.xy / determinant};
+  // All bonds along one line: a = trace d (x) d.
+  const double inverse = trace > 0.0 ? 1.0 / (trace * trace) : 0.0;
+  return {a.xx * inverse, a.yy * inverse, a.xy * inverse};
+}
+
+}  // namespace
+
 template <int Dim>
-ZeroEnergyControl<Dim>::ZeroEnergyControl(RunData<Dim>& run, const NeighbourLists& lists, double viscosity)
-    : run_(run), rate_(rate_of(lists, viscosity)) {
-  constexpr double longest = 16.0;  // rarely enough to cost little, often enough for a smooth motion
-  interval_ = static_cast<int>(std::clamp(1.0 / (rate_ * run.dt), 1.0, longest));
-  fields(*this, Allocate{run.particles.padded()});
+ZeroEnergyControl<Dim>::ZeroEnergyControl(RunData<Dim>& run, double strength)
+    : run_(run), strength_(strength * (run.view.lambda + 2.0 * run.view.mu)) {
+  const Particles<Dim>& p = run.particles;
+  lists_ = find_neighbours<Dim>(p.start, p.count, kernel_support * control_smoothing * run.setup.arrangement.spacing);
+  separate<Dim>(lists_, run.setup.arrangement.cuts, p.start);
+  bonds_ = pack<Dim>(lists_, p.padded(), false);
+  stiffness_.assign(bonds_.entries(), 0.0);
+  fields(*this, Allocate{p.padded()});
   fields(*this, Point<Dim>{run.view});
-  run.view.zero_energy_viscosity = interval_ * viscosity;
+  connect();
+  run.view.controlled = true;
 }
 
-/// Pairwise dampers: no rate exceeds twice the largest sum of a particle's coefficients over its mass.
 template <int Dim>
-double ZeroEnergyControl<Dim>::rate_of(const NeighbourLists& lists, double viscosity) const {
+void ZeroEnergyControl<Dim>::connect() {
   const Particles<Dim>& p = run_.particles;
-  const double h = run_.h;
-  double largest = 0.0;
-  for (std::size_t i = 0; i < p.count; ++i) {
-    double sum = 0.0;
-    for (const int neighbour : lists[i]) {
-      const auto j = static_cast<std::size_t>(neighbour);
-      double square = 0.0;
-      for (std::size_t c = 0; c < run_.dimensions; ++c)
-        square += (p.start[c][j] - p.start[c][i]) * (p.start[c][j] - p.start[c][i]);
-      const double slope = run_.view.slope_norm * kernel_slope(run_.setup.options.kernel, std::sqrt(square) / h);
-      sum += slope * p.volume[i] * p.volume[j] * square / (square + 0.01 * h * h);
-    }
-    largest = std::max(largest, sum * p.inverse_mass[i]);
-  }
-  return 2.0 * viscosity * largest;
+  ended_.assign(p.count, 0);
+  for (std::size_t i = 0; i < p.count; ++i) ended_[i] = p.kind[i] == kind::cracked;
+  for (std::size_t i = 0; i < p.count; ++i) write_row(i);
+  View<Dim>& v = run_.view;
+  v.zero_energy_column = bonds_.column.data();
+  v.zero_energy_neighbour = bonds_.neighbour.data();
+  v.zero_energy_stiffness = stiffness_.data();
+  for (std::size_t c = 0; c < run_.dimensions; ++c) v.zero_energy_weight[c] = bonds_.weight[c].data();
 }
 
 template <int Dim>
-void ZeroEnergyControl<Dim>::act(const Boundaries<Dim>& boundaries) {
-  Particles<Dim>& p = run_.particles;
+void ZeroEnergyControl<Dim>::write_row(std::size_t i) {
+  const Particles<Dim>& p = run_.particles;
+  const double h = control_smoothing * run_.setup.arrangement.spacing;
+  const double norm = strength_ * kernel_norm<Dim>(Kernel::cubic_spline, h) / (h * h);
+  Symmetric moment = {0.0, 0.0, 0.0};
+  for (std::size_t k = 0; k < lists_[i].size(); ++k) {
+    const auto j = static_cast<std::size_t>(lists_[i][k]);
+    const double rx = p.start[0][j] - p.start[0][i];
+    const double ry = p.start[1][j] - p.start[1][i];
+    const double q = std::sqrt(rx * rx + ry * ry) / h;
+    const bool ended = ended_[i] != 0 || ended_[j] != 0;
+    const double stiffness = ended ? 0.0 : norm * (p.volume[i] * p.volume[j]) * kernel_slope(Kernel::cubic_spline, q);
+    const std::size_t entry = bonds_.entry(i, k);
+    stiffness_[entry] = stiffness;
+    bonds_.weight[0][entry] = stiffness * rx;
+    bonds_.weight[1][entry] = stiffness * ry;
+    moment.xx += stiffness * rx * rx;
+    moment.yy += stiffness * ry * ry;
+    moment.xy += stiffness * rx * ry;
+  }
+  const Symmetric inverse = inverse_of(moment);
+  fit_[0][i] = inverse.xx;
+  fit_[1][i] = inverse.yy;
+  fit_[2][i] = inverse.xy;
+}
+
+template <int Dim>
+std::vector<std::size_t> ZeroEnergyControl<Dim>::note_new_cracks() {
+  const Particles<Dim>& p = run_.particles;
+  std::vector<std::size_t> touched;
+  for (std::size_t i = 0; i < p.count; ++i) {
+    if (p.kind[i] != kind::cracked || ended_[i] != 0) continue;
+    ended_[i] = 1;
+    touched.push_back(i);
+    for (const int j : lists_[i]) touched.push_back(static_cast<std::size_t>(j));
+  }
+  std::sort(touched.begin(), touched.end());
+  touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+  return touched;
+}
+
+template <int Dim>
+void ZeroEnergyControl<Dim>::move(double step) {
+  const Particles<Dim>& p = run_.particles;
   run_.for_chunks([&](Index first, Index last) {
     for (std::size_t c = 0; c < run_.dimensions; ++c) {
       for (std::size_t i = lanes_begin(first); i < lanes_begin(last); ++i) {
-        p.predicted[c][i] = p.velocity[c][i] - 0.5 * run_.dt * p.acceleration[c][i];
+        displacement_[c][i] += step * p.velocity[c][i];
       }
     }
   });
-  for (const auto& boundary : boundaries) boundary->predict();
+}
+
+template <int Dim>
+void ZeroEnergyControl<Dim>::advance(double step) {
+  const std::vector<std::size_t> touched = note_new_cracks();
+  if (touched.empty()) {
+    move(step);
+    return;
+  }
+  // A force that is gone at the end of the step has done the work of its beginning for half of the way: so the energy
+  // of the middle is what is lost.
+  move(0.5 * step);
+  double& lost = run_.ledger.zero_energy;
+  for (const std::size_t i : touched) lost += stored_at(i);
+  for (const std::size_t i : touched) write_row(i);
+  for (const std::size_t i : touched) lost -= stored_at(i);
+  move(0.5 * step);
+}
+
+template <int Dim>
+void ZeroEnergyControl<Dim>::act() {
   run_.for_chunks([&](Index first, Index last) { run_.passes->gradient_zero_energy(run_.view, first, last); });
   run_.for_chunks([&](Index first, Index last) { run_.passes->force_zero_energy(run_.view, first, last); });
 }
 
 template <int Dim>
-void ZeroEnergyControl<Dim>::account(bool acted) {
-  double work = run_.ledger.zero_energy + next_;
-  double next = 0.0;
-  const Particles<Dim>& p = run_.particles;
-  const double dt = run_.dt;
-  for (std::size_t c = 0; acted && c < run_.dimensions; ++c) {
-    for (std::size_t i = 0; i < p.count; ++i) {
-      work -= 0.5 * dt * force_[c][i] * (p.velocity[c][i] - dt * p.acceleration[c][i]);
-      next -= 0.5 * dt * force_[c][i] * p.velocity[c][i];
-    }
+void ZeroEnergyControl<Dim>::forget_displacements() {
+  for (Field& u : displacement_) std::fill(u.begin(), u.end(), 0.0);
+}
+
+template <int Dim>
+double ZeroEnergyControl<Dim>::stored() const {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < run_.particles.count; ++i) sum += stored_at(i);
+  return sum;
+}
+
+template <int Dim>
+double ZeroEnergyControl<Dim>::stored_at(std::size_t i) const {
+  Full s = {0.0, 0.0, 0.0, 0.0};  // sum k_ij (u_j - u_i) (x) r_ij, and of k_ij |u_j - u_i|^2:
+  double whole = 0.0;
+  for (std::size_t k = 0; k < lists_[i].size(); ++k) {
+    const auto j = static_cast<std::size_t>(lists_[i][k]);
+    const std::size_t entry = bonds_.entry(i, k);
+    const double ux = displacement_[0][j] - displacement_[0][i];
+    const double uy = displacement_[1][j] - displacement_[1][i];
+    s.xx += ux * bonds_.weight[0][entry];
+    s.xy += ux * bonds_.weight[1][entry];
+    s.yx += uy * bonds_.weight[0][entry];
+    s.yy += uy * bonds_.weight[1][entry];
+    whole += stiffness_[entry] * (ux * ux + uy * uy);
   }
-  run_.ledger.zero_energy = work;
-  next_ = next;
+  // What a least-squares fit leaves is the whole less what it explains.
+  const Symmetric f = {fit_[0][i], fit_[1][i], fit_[2][i]};
+  const double explained = f.xx * (s.xx * s.xx + s.yx * s.yx) + f.yy * (s.xy * s.xy + s.yy * s.yy) +
+                           2.0 * f.xy * (s.xx * s.xy + s.yx * s.yy);
+  return 0.25 * (whole - explained);
 }
 
 template class ZeroEnergyControl<2>;

@@ -32,7 +32,7 @@ TEST(Band, SquareLattice) {
     const std::vector<Vector> square = offsets(d * direction(turned), d * direction(turned + 90.0));
     for (const double angle : {0.0, 10.0, 30.0, 45.0, 60.0, 90.0, 200.0}) {
       const Vector n = direction(angle);
-      const double exact = 2.0 * d / (std::abs(n[0]) + std::abs(n[1])) * band_factor;
+      const double exact = 2.0 * d / (std::abs(n[0]) + std::abs(n[1]));
       EXPECT_NEAR(band_width<2>(d, direction(angle + turned), square), exact, 1e-15) << angle;
     }
   }
@@ -45,7 +45,7 @@ TEST(Band, ShearedLattice) {
     const double shift = std::tan(angle * pi / 180.0);
     const std::vector<Vector> sheared = offsets(vec(d, 0.0), vec(-shift * d, d));
     const double apart = d * std::cos(angle * pi / 180.0);  // of the columns
-    EXPECT_NEAR(band_width<2>(d, direction(angle), sheared) / band_factor, 2.0 * apart, 0.02 * 2.0 * apart) << angle;
+    EXPECT_NEAR(band_width<2>(d, direction(angle), sheared), 2.0 * apart, 0.02 * 2.0 * apart) << angle;
   }
 }
 
@@ -55,15 +55,15 @@ TEST(Band, NearestNeighboursInThreeDimensions) {
     cubic.push_back(Vec<double, 3>::Unit(c));
     cubic.push_back(-Vec<double, 3>::Unit(c));
   }
-  EXPECT_NEAR(band_width<3>(1.0, Vec<double, 3>::Unit(1), cubic), 2.0 * band_factor, 1e-15);
+  EXPECT_NEAR(band_width<3>(1.0, Vec<double, 3>::Unit(1), cubic), 2.0, 1e-15);
   const Vec<double, 3> diagonal = Vec<double, 3>::Constant(std::sqrt(1.0 / 3.0));
-  EXPECT_NEAR(band_width<3>(1.0, diagonal, cubic), 2.0 * std::sqrt(1.0 / 3.0) * band_factor, 1e-15);
+  EXPECT_NEAR(band_width<3>(1.0, diagonal, cubic), 2.0 * std::sqrt(1.0 / 3.0), 1e-15);
 }
 
 TEST(Band, WithoutNeighboursOffThePlaneItIsTwoSizes) {
-  EXPECT_EQ(band_width<2>(1.0, vec(1.0, 0.0), {}), 2.0 * band_factor);
+  EXPECT_EQ(band_width<2>(1.0, vec(1.0, 0.0), {}), 2.0);
   const std::array<Vector, 2> along = {vec(0.0, 1.0), vec(0.0, -1.0)};
-  EXPECT_EQ(band_width<2>(1.0, vec(1.0, 0.0), along), 2.0 * band_factor);
+  EXPECT_EQ(band_width<2>(1.0, vec(1.0, 0.0), along), 2.0);
 }
 
 }  // namespace

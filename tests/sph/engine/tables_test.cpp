@@ -155,22 +155,23 @@ TEST(OptionTable, WordsAreComplete) {
 
 /// Powers of two, so that each subset of the terms has its own sum.
 TEST(EnergyTable, TheErrorIsWhatTheBalanceLacks) {
-  const Energies e = {1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0};
-  const auto& [external, elastic, kinetic, fracture, viscous, damping, artificial, kinetic_start] = e;
-  EXPECT_EQ(energy_terms.size(), 8U);
-  EXPECT_EQ(e.error(), external - (elastic + kinetic - kinetic_start + fracture + viscous + damping + artificial));
+  const Energies e = {1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0, 256.0};
+  const auto& [external, elastic, kinetic, fracture, zero_energy, viscous, damping, artificial, kinetic_start] = e;
+  EXPECT_EQ(energy_terms.size(), 9U);
+  EXPECT_EQ(e.error(),
+            external - (elastic + kinetic - kinetic_start + fracture + zero_energy + viscous + damping + artificial));
 }
 
 TEST(EnergyTable, ReportsTheTermsAndTheError) {
-  const Energies e = {1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0};
+  const Energies e = {1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0, 256.0};
   std::string names;
   std::vector<double> values;
   for_each_energy(e, [&](std::string_view name, double x) {
     names += std::string(name) + ' ';
     values.push_back(x);
   });
-  EXPECT_EQ(names, "external elastic kinetic fracture viscous damping artificial error ");
-  EXPECT_EQ(values, (std::vector<double>{1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0, e.error()}));
+  EXPECT_EQ(names, "external elastic kinetic fracture zero_energy viscous damping artificial error ");
+  EXPECT_EQ(values, (std::vector<double>{1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0, e.error()}));
 }
 
 }  // namespace

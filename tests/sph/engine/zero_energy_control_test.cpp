@@ -1,5 +1,6 @@
-// Zero-energy control: the velocities that the gradient of the reference configuration does not see.
+// Zero-energy control: the displacements that the gradient of the reference configuration does not see.
 #include <cmath>
+#include <numbers>
 
 #include "setups.hpp"
 
@@ -15,10 +16,10 @@ RunSetup<2> lattice(double control, const std::function<Vector(const Vector&)>& 
   return s;
 }
 
-/// Alternates from particle to particle in both directions, or from column to column.
+/// Alternates from particle to particle in both directions.
 Vector checkerboard(const Vector& x) {
   const auto parity = [](double c) { return std::lround(c / 1e-3 - 0.5) % 2 == 0 ? 1.0 : -1.0; };
-  return vec(0.01 * parity(x[0]) * parity(x[1]), 0.01 * parity(x[0]));
+  return 0.01 * parity(x[0]) * parity(x[1]) * vec(1.0, 0.5);
 }
 
 /// Part of the alternating velocities that is left inside, 1 at the start.
@@ -35,64 +36,77 @@ double left(const Simulation<2>& run) {
   return sum / square;
 }
 
-TEST(ZeroEnergyControl, RemovesAlternatingVelocities) {
+/// A checkerboard has no gradient: it drifts without control. With it, every particle hangs on its four nearest
+/// neighbours, which move the other way, by k = 0.2 (lambda + 2 mu) 0.75 10/(7 pi) each (the slope of the cubic spline
+/// at one smoothing length; diagonal ones move along), so that omega^2 = 8 k/m.
+TEST(ZeroEnergyControl, AlternatingDisplacementsOscillate) {
   for (const MomentumForm form : {MomentumForm::adjoint, MomentumForm::paper}) {
     RunSetup<2> off = lattice(0.0, checkerboard);
-    RunSetup<2> on = lattice(Options<2>{}.zero_energy_control, checkerboard);
+    RunSetup<2> on = lattice(0.2, checkerboard);
     off.options.momentum = on.options.momentum = form;
+    off.options.courant = on.options.courant = 0.05;
+    const Parameters& p = on.parameters;
+    const double modulus =
+        p.young_modulus * (1.0 - p.poisson_ratio) / ((1.0 + p.poisson_ratio) * (1.0 - 2.0 * p.poisson_ratio));
+    const double stiffness = 0.2 * modulus * 0.75 * 10.0 / (7.0 * std::numbers::pi);
+    const double omega = std::sqrt(8.0 * stiffness / (p.density * 1e-6));
     Simulation<2> free(off), controlled(on);
-    advance(free, 10);
+    const auto half_period = std::lround(std::numbers::pi / omega / controlled.time_step());
+    advance(free, half_period);
     EXPECT_GT(left(free), 0.9);
-    advance(free, 1990);
-    advance(controlled, 2000);
-    EXPECT_LT(std::abs(left(controlled)), 0.02);
-    EXPECT_LT(controlled.energies().kinetic, 0.05 * free.energies().kinetic);
+    advance(controlled, half_period / 2);
+    EXPECT_NEAR(left(controlled), 0.0, 0.05);
+    advance(controlled, half_period - half_period / 2);
+    EXPECT_NEAR(left(controlled), -1.0, 0.05);
   }
 }
 
-/// The energy that it takes is reported, and the balance closes; prescribed components included.
-TEST(ZeroEnergyControl, ItsWorkIsReported) {
-  RunSetup<2> s = lattice(0.01, checkerboard, 0.1);
+/// Its energy is stored, never negative, and given back: the balance closes and nothing is dissipated; prescribed
+/// components included.
+TEST(ZeroEnergyControl, ItsEnergyIsStored) {
+  RunSetup<2> s = lattice(0.2, checkerboard, 0.1);
+  s.options.courant = 0.1;
   add_group(s, {"left", {Motion{0.0, 0.0}, std::nullopt}, true}, [](const Vector& x) { return x[0] < 3e-3; });
   add_group(s, {"right", {Motion{0.02, 5e-6}, Motion{0.0, 0.0}}, true}, [](const Vector& x) { return x[0] > 21e-3; });
   Simulation<2> run(s);
-  double last = 0.0;
+  double most = 0.0;
   for (int k = 0; k < 400; ++k) {
     advance(run, 1);
     const Energies e = run.energies();
     EXPECT_LT(std::abs(e.error()), 1e-6 * e.kinetic_start);
-    EXPECT_GE(e.viscous, last - 1e-9 * e.kinetic_start);
-    last = e.viscous;
+    EXPECT_GE(e.zero_energy, 0.0);
+    EXPECT_LT(std::abs(e.viscous), 0.02 * e.kinetic_start);  // of the order of the square of the time step
+    most = std::max(most, e.zero_energy);
   }
-  EXPECT_GT(last, 0.3 * run.energies().kinetic_start);
+  EXPECT_GT(most, 0.3 * run.energies().kinetic_start);
 }
 
-/// Affine motion meets no force of the zero-energy control on any arrangement (steps so short that it stays affine),
-/// neither does a spin through half a turn.
+/// Affine motion meets no force of the zero-energy control on any arrangement, neither does half a turn.
 TEST(ZeroEnergyControl, DoesNothingToAffineMotion) {
   Matrix a;
   a << 30.0, -20.0, 50.0, 10.0;
-  const auto taken = [](const std::function<Vector(const Vector&)>& field) {
-    RunSetup<2> s = lattice(0.01, field, 0.25);
-    s.options.courant = 1e-4;
+  const auto held = [](const std::function<Vector(const Vector&)>& field) {
+    RunSetup<2> s = lattice(0.2, field, 0.25);
+    s.options.courant = 1e-4;  // steps so short that it stays affine
     Simulation<2> run(s);
     advance(run, 50);
-    return run.energies().viscous / run.energies().kinetic_start;
+    return run.energies().zero_energy / run.energies().kinetic_start;
   };
-  EXPECT_LT(taken([&](const Vector& x) { return Vector(a * x); }), 1e-6 * taken(checkerboard));
+  EXPECT_LT(held([&](const Vector& x) { return Vector(a * x); }), 1e-6 * held(checkerboard));
 
   const double omega = 2000.0;
   const Vector centre = vec(12e-3, 8e-3);
   RunSetup<2> spin =
-      lattice(0.01, [&](const Vector& x) { return vec(-omega * (x[1] - centre[1]), omega * (x[0] - centre[0])); });
+      lattice(0.2, [&](const Vector& x) { return vec(-omega * (x[1] - centre[1]), omega * (x[0] - centre[0])); });
   Simulation<2> turning(spin);
   advance(turning, static_cast<long long>(0.5 * 3.14159 / omega / turning.time_step()));
+  EXPECT_LT(turning.energies().zero_energy, 1e-6 * turning.energies().kinetic_start);
   EXPECT_LT(std::abs(turning.energies().viscous), 1e-6 * turning.energies().kinetic_start);
 }
 
 TEST(ZeroEnergyControl, ConservesMomentumAndMomentOfMomentum) {
   RunSetup<2> s = lattice(
-      0.02, [](const Vector& x) { return Vector(checkerboard(x) + vec(0.0, 0.01 + x[0])); }, 0.2);
+      0.2, [](const Vector& x) { return Vector(checkerboard(x) + vec(0.0, 0.01 + x[0])); }, 0.2);
   s.options.courant = 0.01;  // the internal force, which keeps the moment only to the order of the strain, is small
   Simulation<2> run(s);
   const auto moment = [&] {
@@ -109,24 +123,46 @@ TEST(ZeroEnergyControl, ConservesMomentumAndMomentOfMomentum) {
   advance(run, 48);
   EXPECT_LT((momentum(run) - before).norm(), 1e-12 * before.norm());
   EXPECT_NEAR(moment() / moment_before, 1.0, 1e-8);
-  EXPECT_GT(run.energies().viscous, 1e-3 * run.energies().kinetic_start);
+  EXPECT_GT(run.energies().zero_energy, 1e-3 * run.energies().kinetic_start);
 }
 
-/// However strong: the interval and the time step follow, and no run explodes.
+/// However strong, and at any step: no wave grows, also where one action stands for several steps.
 TEST(ZeroEnergyControl, IsStableAtAnyStrength) {
-  for (const double control : {0.01, 0.1, 1.0, 10.0}) {
-    RunSetup<2> s = lattice(
-        control, [](const Vector& x) { return vec(std::sin(5e3 * x[0]), std::cos(4e3 * x[1])); }, 0.3);
-    s.options.gradient = Gradient::kernel;  // whose strength the bound on the rates counts with
-    s.options.courant = 10.0;
-    Simulation<2> run(s);
-    advance(run, 2000);
-    EXPECT_LT(run.energies().kinetic, run.energies().kinetic_start) << control;
-    EXPECT_GT(run.energies().viscous, 0.0);
+  for (const double control : {0.05, 0.2, 1.0, 10.0}) {
+    for (const double courant : {0.3, 0.5, 10.0}) {
+      RunSetup<2> s = lattice(
+          control, [](const Vector& x) { return Vector(checkerboard(x) + vec(std::sin(5e3 * x[0]), 0.0)); }, 0.3);
+      s.options.courant = courant;
+      Simulation<2> run(s);
+      advance(run, 4000);
+      const Energies e = run.energies();
+      EXPECT_LT(e.kinetic + e.elastic + e.zero_energy, 1.05 * e.kinetic_start) << control << " " << courant;
+    }
   }
   RunSetup<2> weak = lattice(0.0, checkerboard);
   RunSetup<2> strong = lattice(10.0, checkerboard);
-  EXPECT_LT(stability_limit(strong), 0.2 * stability_limit(weak));
+  EXPECT_LT(stability_limit(strong), 0.5 * stability_limit(weak));
+}
+
+/// What it held in bonds that end at a crack is dissipated, so that the balance is as good as without control (cracks
+/// that open within a step leave an error of their own).
+TEST(ZeroEnergyControl, WhatItHeldAtCracksIsDissipated) {
+  RunSetup<2> without = torn(variants[0]);
+  without.options.zero_energy_control = 0.0;
+  Simulation<2> free(without), controlled(torn(variants[0]));
+  advance(free, 1000);
+  double last = 0.0;
+  for (int k = 0; k < 40; ++k) {
+    advance(controlled, 25);
+    const Energies e = controlled.energies();
+    EXPECT_GE(e.zero_energy, 0.0);
+    EXPECT_GE(e.viscous, last);
+    last = e.viscous;
+  }
+  const Energies e = controlled.energies();
+  EXPECT_GT(controlled.cracked(), 20U);
+  EXPECT_GT(e.viscous, 0.0);
+  EXPECT_LT(std::abs(e.error()), std::abs(free.energies().error()) + 1e-3 * e.external);
 }
 
 }  // namespace

@@ -20,14 +20,10 @@
 
 namespace fpz::sph {
 
-/// Part of the width above that gives G on the notched beam (docs/particle-method-measurements.md): not all of the
-/// particles in the band open to the end, because bonds are cut before and because one row leads.
-inline constexpr double band_factor = 0.96;
-
 /// H, m, of a particle of size `size` = V^(1/Dim) (m), which cracks with the unit normal `normal`, from the offsets of
 /// its neighbours (m, any order; those beyond sqrt(2) sizes have no influence). Nearest means the weight w = max(0, 2 -
 /// r^2/size^2): one at one size, zero at the diagonal of a lattice, continuous for irregular arrangements. Without a
-/// neighbour off the crack plane: two sizes times band_factor.
+/// neighbour off the crack plane: two sizes.
 template <int Dim>
 [[nodiscard]] double band_width(double size, const Vec<double, Dim>& normal,
                                 std::span<const Vec<double, Dim>> offsets) {
@@ -41,7 +37,7 @@ template <int Dim>
     extents += weight * std::abs(s);
   }
   const double width = extents > 0.0 ? squares / extents : size;
-  return 2.0 * band_factor * width;
+  return 2.0 * width;
 }
 
 }  // namespace fpz::sph

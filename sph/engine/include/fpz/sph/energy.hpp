@@ -7,16 +7,17 @@
 
 namespace fpz::sph {
 
-/// Joule (per metre of thickness in 2-D). The balance is external = elastic + kinetic + fracture + viscous + damping +
-/// artificial, all counted from the start; kinetic is the difference from the start.
+/// Joule (per metre of thickness in 2-D). The balance is external = elastic + kinetic + fracture + zero_energy +
+/// viscous + damping + artificial, all counted from the start; kinetic is the difference from the start.
 struct Energies {
-  double external = 0.0;    ///< work of prescribed motions and of gravity
-  double elastic = 0.0;     ///< stored in bulk and cohesive zones
-  double kinetic = 0.0;     ///< sum m v(n-1/2).v(n+1/2)/2, the leap-frog's own invariant
-  double fracture = 0.0;    ///< dissipated by the cohesive zones
-  double viscous = 0.0;     ///< dissipated by artificial viscosity and by the zero-energy control
-  double damping = 0.0;     ///< dissipated by local damping
-  double artificial = 0.0;  ///< taken by the artificial stress (may be negative)
+  double external = 0.0;     ///< work of prescribed motions and of gravity
+  double elastic = 0.0;      ///< stored in bulk and cohesive zones
+  double kinetic = 0.0;      ///< sum m v(n-1/2).v(n+1/2)/2, the leap-frog's own invariant
+  double fracture = 0.0;     ///< dissipated by the cohesive zones
+  double zero_energy = 0.0;  ///< stored in the zero-energy control
+  double viscous = 0.0;      ///< dissipated by artificial viscosity, and by the zero-energy control where cracks begin
+  double damping = 0.0;      ///< dissipated by local damping
+  double artificial = 0.0;   ///< taken by the artificial stress (may be negative)
   double kinetic_start = 0.0;
 
   /// What the balance lacks: zero for exact integration.
@@ -35,14 +36,15 @@ struct EnergyTerm {
 
 /// The one list of the terms, in the order in which they are added and reported.
 // clang-format off
-inline constexpr std::array<EnergyTerm, 8> energy_terms = {{
+inline constexpr std::array<EnergyTerm, 9> energy_terms = {{
     {"external",      &Energies::external,      EnergyRole::source,  "work of prescribed motions and of gravity"},
     {"elastic",       &Energies::elastic,       EnergyRole::sink,    "stored in the bulk and in cohesive zones"},
     {"kinetic",       &Energies::kinetic,       EnergyRole::sink,    "kinetic, of the leap-frog"},
     {"kinetic_start", &Energies::kinetic_start, EnergyRole::initial, "kinetic at the start"},
     {"fracture",      &Energies::fracture,      EnergyRole::sink,    "dissipated by the cohesive zones"},
+    {"zero_energy",   &Energies::zero_energy,   EnergyRole::sink,    "stored in the zero-energy control"},
     {"viscous",       &Energies::viscous,       EnergyRole::sink,
-     "dissipated by artificial viscosity and by the zero-energy control"},
+     "dissipated by artificial viscosity, and by the zero-energy control where cracks begin"},
     {"damping",       &Energies::damping,       EnergyRole::sink,    "dissipated by local damping"},
     {"artificial",    &Energies::artificial,    EnergyRole::sink,    "taken by the artificial stress"},
 }};

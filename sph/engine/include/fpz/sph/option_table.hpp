@@ -91,8 +91,8 @@ inline constexpr auto option_table = std::tuple{
                  .valid = detail::not_negative, .file = {0.0, 10.0}, .in_summary = false},
                 &Options<Dim>::skin},
     OptionEntry{{.name = "zero_energy_control",
-                 .text = "reference: viscosity, in units of rho c h, against relative velocities that the velocity "
-                         "gradients do not explain; 0: off",
+                 .text = "reference: stiffness, in units of lambda + 2 mu, against displacements that the gradients do "
+                         "not see; 0: off",
                  .valid = detail::not_negative, .file = {0.0, 100.0}},
                 &Options<Dim>::zero_energy_control},
     OptionEntry{{.name = "damping",

@@ -54,10 +54,10 @@ struct Options {
   double viscosity_beta = 0.0;       ///< updated: quadratic artificial viscosity
   double artificial_stress = 0.2;    ///< updated: fraction of a tensile principal stress that repels close particles
   double skin = 0.3;                 ///< updated: margin of the neighbour lists, in spacings
-  /// reference: viscosity, in units of rho c h, against relative velocities along a bond that the velocity gradients of
-  /// its two ends do not explain. The gradient does not see velocities that alternate from particle to particle.
-  /// 0: off.
-  double zero_energy_control = 0.01;
+  /// reference: stiffness, in units of lambda + 2 mu, against relative displacements of uncracked neighbours that the
+  /// mean of the gradients at the two does not explain. The gradient does not see displacements that alternate from
+  /// particle to particle. 0: off.
+  double zero_energy_control = 0.2;
   double damping = 0.0;     ///< local damping: this part of the resultant force opposes the velocity
   double mass_scale = 1.0;  ///< inertia is multiplied by this (gravity is not)
   /// reference: the bonds of a crack whose integrity 1 - D is below this are cut where the displacements of their two

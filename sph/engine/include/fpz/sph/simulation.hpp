@@ -42,8 +42,7 @@ template <int Dim>
 [[nodiscard]] double courant_step(const RunSetup<Dim>& setup);
 
 /// The longest stable time step of the elastic body of this arrangement, s: 2/omega with the largest frequency omega
-/// found by power iteration (some hundred times the work of a step), or what the control of zero-energy velocities
-/// needs where that is shorter. Viscosity and local damping shorten it further.
+/// found by power iteration (some hundred times the work of a step). Viscosity and local damping shorten it further.
 template <int Dim>
 [[nodiscard]] double stability_limit(const RunSetup<Dim>& setup);
 
