@@ -125,13 +125,12 @@ def loop(design, normal=-20e6, turn=0.5):
 
 def picture():
     chosen = designs()
-    script = ['set terminal svg size 640,400 font "sans,12"', "set output 'docs/images/cohesive-zones.svg'",
-              "set xlabel 'shear jump (um)'", "set ylabel 'shear traction (MPa)'", "set grid", "set key bottom right",
-              "set xzeroaxis"]
-    curves = [("published", loop(chosen[0])), ("consistent", loop(chosen[-1]))]
-    plots = [f"'-' with lines lw 2 title '{name}'" for name, _ in curves]
-    script.append("plot " + ", ".join(plots))
-    for _, states in curves:
+    script = ['set terminal svg size 800,360 font "sans,12"', "set output 'docs/images/cohesive-zones.svg'",
+              "set multiplot layout 1,2", "set xlabel 'shear jump (um)'", "set ylabel 'shear traction (MPa)'", "set grid",
+              "set xzeroaxis", "unset key"]
+    for name, design in (("published", chosen[0]), ("consistent", chosen[-1])):
+        states = loop(design)
+        script += [f"set title '{name}'", "plot '-' with lines lw 2"]
         script += [f"{u * 1e6:.5g} {t / 1e6:.5g}" for u, t in states[::20] + states[-1:]] + ["e"]
     subprocess.run(["gnuplot"], input="\n".join(script), text=True, check=True, cwd=ROOT)
 
