@@ -126,8 +126,8 @@ def loop(design, normal=-20e6, turn=0.5):
 def picture():
     chosen = designs()
     script = ['set terminal svg size 800,360 font "sans,12"', "set output 'docs/images/cohesive-zones.svg'",
-              "set multiplot layout 1,2", "set xlabel 'shear jump (um)'", "set ylabel 'shear traction (MPa)'", "set grid",
-              "set xzeroaxis", "unset key"]
+              "set multiplot layout 1,2", "set xlabel 'shear jump (um)'", "set ylabel 'shear traction (MPa)'",
+              "set grid", "set xzeroaxis", "unset key"]
     for name, design in (("published", chosen[0]), ("consistent", chosen[-1])):
         states = loop(design)
         script += [f"set title '{name}'", "plot '-' with lines lw 2"]
