@@ -112,7 +112,8 @@ TEST(ClosedCycle, ConfinedShearGivesNothing) {
   }
 }
 
-/// One random walk: legs of strain in tension, compression, shear or a mixture, each followed by a return to zero stress.
+/// One random walk: legs of strain in tension, compression, shear or a mixture, each followed by a return to zero
+/// stress.
 template <int Dim>
 void walk(Walker<Dim>& w, const Parameters& p, std::mt19937_64& rng) {
   std::uniform_real_distribution<double> uniform(0.0, 1.0);

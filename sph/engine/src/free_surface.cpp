@@ -89,7 +89,11 @@ double nearest(const Piece& p, const Point& x) {
 class DescribedSurface {
  public:
   DescribedSurface(const RunData<2>& run, double reach)
-      : reach_(reach), spacing_(run.setup.arrangement.spacing), cells_(reach), platens_(reach) {
+      : reach_(reach),
+        spacing_(run.setup.arrangement.spacing),
+        platen_reach_(2.0 * reach),
+        cells_(reach),
+        platens_(platen_reach_) {
     for (const auto& line : run.setup.arrangement.surface) add_line(pieces_, line, false);
     for (const Cut<2>& cut : run.setup.arrangement.cuts) add_line(pieces_, {cut.corner[0], cut.corner[1]}, true);
     for (std::size_t k = 0; k < pieces_.size(); ++k) {
@@ -105,7 +109,7 @@ class DescribedSurface {
 
   void look(const Point& x, Free& f) const {
     platens_.near(x, [&](int k) {
-      f.at_platen = f.at_platen || (covers_[static_cast<std::size_t>(k)] - x).norm() < reach_ - 0.5 * spacing_;
+      f.at_platen = f.at_platen || (covers_[static_cast<std::size_t>(k)] - x).norm() < platen_reach_;
     });
     cells_.near(x, [&](int k) { consider(x, static_cast<std::size_t>(k), f); });
   }
@@ -143,6 +147,7 @@ class DescribedSurface {
   }
 
   double reach_, spacing_;
+  double platen_reach_;  // beyond their edges as well, where the stress changes most
   std::vector<Piece> pieces_;
   std::vector<Point> covers_;
   Cells cells_, platens_;
