@@ -238,7 +238,7 @@ Work<T> directed_work(const CohesiveLaw<T>& law, const CohesiveLaw<double>& plai
 
 template <class T>
 Work<T> work(const BasicParameters<T>& p, const CohesiveLaw<double>& plain, const FractureEnergyTest& test) {
-  const CohesiveLaw<T> law = make_cohesive_law(p);
+  const CohesiveLaw<T> law = jump_driven_law(p);
   switch (test.path) {
     case FracturePath::opening:
       return directed_work(law, plain, test, 0.0);
@@ -288,7 +288,7 @@ double energy_modulus(double young_modulus, double poisson_ratio, Setting settin
 
 Prediction predict(const FractureEnergyTest& test, const Parameters& parameters, bool derivatives) {
   if (std::string why = problem(test, parameters); !why.empty()) return failed(std::move(why));
-  const CohesiveLaw<double> plain = make_cohesive_law(parameters);
+  const CohesiveLaw<double> plain = jump_driven_law(parameters);
   Prediction out;
   out.values.resize(1);
   if (!derivatives) {

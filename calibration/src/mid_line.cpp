@@ -49,8 +49,8 @@ MidLine::MidLine(const Condensation& condensation, const Parameters& parameters,
       young_modulus_(parameters.young_modulus),
       control_(control),
       derivatives_(derivatives),
-      law_(make_cohesive_law(parameters)),
-      slope_law_(make_cohesive_law(seeded_inputs<Slope>(parameters))),
+      law_(jump_driven_law(parameters)),
+      slope_law_(jump_driven_law(seeded_inputs<Slope>(parameters))),
       stiffness_(parameters.young_modulus * condensation.body.stiffness),
       reading_per_load_(condensation.body.gauge_load[static_cast<int>(control.gauge)] / parameters.young_modulus +
                         control.machine_compliance) {

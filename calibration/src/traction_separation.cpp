@@ -21,7 +21,7 @@ class ZoneRun {
   using Zone = CohesiveState<T, 2>;
 
   ZoneRun(const TractionSeparationTest& test, const BasicParameters<T>& p)
-      : test_(test), law_(make_cohesive_law(p)), plain_(values(law_)) {
+      : test_(test), law_(jump_driven_law(p)), plain_(values(law_)) {
     options_.tolerance = test.tolerance;
     // The normal traction is held by a soft spring in series with the zone, whose far end is moved so that the traction
     // is right at every row. In between it follows the zone's dilation, less than delta0, divided by this compliance.

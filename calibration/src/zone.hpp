@@ -7,6 +7,15 @@
 
 namespace fpz::calibration {
 
+/// The law of a zone whose jump itself is driven: always that of the published form. The consistent one is rigid at
+/// onset and has no traction of its own at a given jump there. Strengths, damage, G_I and G_II are the same in both,
+/// and the jumps differ by at most D K^-1 t (docs/equations.md).
+template <class P>
+[[nodiscard]] CohesiveLaw<P> jump_driven_law(BasicParameters<P> p) {
+  p.choices.cohesive_zone = CohesiveZone::published;
+  return make_cohesive_law(p);
+}
+
 /// The zone in series with a compliance while its drive goes straight on (m), with error control to options.tolerance.
 /// `end` is written only on success.
 template <class T, class P>

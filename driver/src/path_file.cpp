@@ -135,7 +135,11 @@ class FileReader {
     const std::optional<Setting> setting = read_setting(scope);
     test.setting = setting.value_or(Setting::plane_strain);
     read_parameters(scope, test);
-    if (const auto at = required(scope, "integrator")) test.options = read_integrator(*at, setting);
+    if (const auto at = required(scope, "integrator")) {
+      test.options = read_integrator(*at, setting);
+      const std::string why = why_unfit(test.options.method, test.parameters.choices);
+      if (!why.empty()) reader_.problem(*at, why);
+    }
     // With an unknown setting all components pass, so that its correction does not bring up false complaints.
     if (const auto at = required(scope, "stages")) stages_of(*at, setting.value_or(Setting::three_d));
     return test;

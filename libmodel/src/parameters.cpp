@@ -139,6 +139,34 @@ double uniaxial_tensile_strength(const Parameters& p) {
   return 2.0 * r;
 }
 
+namespace {
+
+/// Springs that are too soft: in the published zone they are preloaded with an energy that counts beside G, in the
+/// consistent one they are not used as they are.
+void warn_of_springs(const Parameters& p, Checker& check) {
+  constexpr double negligible = 0.1;  // of G
+  const OnsetPreload preload = onset_preload(p);
+  if (preload.ratio > negligible) {
+    const bool normal = preload.stiffness == p.normal_stiffness;
+    check.warn(normal ? "normal_stiffness" : "shear_stiffness", preload.stiffness,
+               "the published zone starts with preloaded springs that give back up to " + rounded(preload.ratio) +
+                   " times the fracture energy (normal tractions from -cohesion to tensile_strength); use "
+                   "\"cohesive_zone\": \"consistent\" or a stiffness " +
+                   rounded(preload.ratio / negligible) + " times as high");
+  }
+  const UnloadingStiffness<double> used = unloading_stiffness(p);
+  const auto raised = [&](const char* field, double given, double in_use) {
+    if (in_use == given) return;
+    check.warn(field, given,
+               "softer than the secant of the softening, which would snap back by itself; unloading and contact take " +
+                   rounded(in_use) + " Pa/m");
+  };
+  raised("normal_stiffness", p.normal_stiffness, used.normal);
+  raised("shear_stiffness", p.shear_stiffness, used.shear);
+}
+
+}  // namespace
+
 Validation validate(const Parameters& p, Setting setting) {
   Checker check;
 
@@ -199,6 +227,9 @@ Validation validate(const Parameters& p, Setting setting) {
                      ": uniaxial tension cracks on an inclined plane at " + rounded(strength) +
                      ", below tensile_strength = " + exact(p.tensile_strength));
     }
+  }
+  if (surface_ok && ok(&Parameters::delta0) && ok(&Parameters::normal_stiffness) && ok(&Parameters::shear_stiffness)) {
+    warn_of_springs(p, check);
   }
   return std::move(check.result);
 }

@@ -33,8 +33,8 @@ std::string with_stage(const std::string& stage, const std::string& setting = "p
 }
 
 std::string with_integrator(const std::string& integrator, const std::string& setting = "plane_strain") {
-  return R"({"material": "../materials/johnstone.json", "rve_length": 0.004, "setting": ")" + setting +
-         R"(", "integrator": )" + integrator + R"(, "stages": [{"increments": 1, "strain": {"xx": 1e-3}}]})";
+  return R"({"material": {"file": "../materials/johnstone.json", "cohesive_zone": "published"}, "rve_length": 0.004, "setting": ")" +
+         setting + R"(", "integrator": )" + integrator + R"(, "stages": [{"increments": 1, "strain": {"xx": 1e-3}}]})";
 }
 
 /// A material in line 2, with `replaced` in place of the value of `key`.
@@ -125,6 +125,14 @@ TEST(PathFile, MaterialFileWithOtherValuesBesideIt) {
   EXPECT_NE(message_of(with(R"({"file": 3})")).find("material.file: expected the name of a material file"),
             std::string::npos);
   EXPECT_NE(message_of(with(R"({"file": "none.json"})")).find("cannot read material file"), std::string::npos);
+}
+
+TEST(PathFile, ThePaperAlgorithmIsForThePublishedZone) {
+  const std::string message = message_of(R"({"material": "../materials/johnstone.json", "rve_length": 0.004,
+ "setting": "plane_strain", "integrator": {"name": "paper", "tolerance": 1e-4},
+ "stages": [{"increments": 1, "strain": {"xx": 1e-3}}]})");
+  EXPECT_NE(message.find("x.json:2: integrator: paper integrates the published zone only"), std::string::npos)
+      << message;
 }
 
 TEST(PathFile, EveryKeyOfAStage) {

@@ -35,7 +35,7 @@ TEST(Softening, IsChosenByTheMaterial) {
                    softening +
                    R"("young_modulus": 0.4e9, "poisson_ratio": 0.25, "density": 1540,
         "tensile_strength": 0.6e6, "cohesion": 1e6, "friction_angle_deg": 33, "dilation_angle_deg": 4, "delta0": 18e-6,
-        "normal_stiffness": 1e13, "shear_stiffness": 1e11},
+        "normal_stiffness": 1e13, "shear_stiffness": 1e11, "cohesive_zone": "published"},
       "stages": [{"increments": 50, "strain": {"xx": 0.08}}]})",
                "x.json")
         .tests.at(0);
@@ -205,6 +205,16 @@ TEST(StoredEnergy, BelowZeroIsAnErrorOfTheModel) {
   EXPECT_NEAR(result.history.back().stress[xy], 0.0, 1.0);  // the path is complete
   EXPECT_LT(result.summary.work * test.parameters.rve_length, -900.0);
   EXPECT_LT(result.summary.least_stored.value * test.parameters.rve_length, -1000.0);
+}
+
+TEST(StoredEnergy, IsNeverBelowZeroInTheConsistentZone) {
+  const PathTest test = closed_stress_cycle(CohesiveZone::consistent);
+  const Result result = run_test(test);
+  ASSERT_TRUE(result.ok()) << result.message;
+  EXPECT_GE(result.summary.work, 0.0);
+  EXPECT_EQ(result.summary.least_stored.value, 0.0);
+  EXPECT_GT(result.summary.dissipated, 0.0);
+  EXPECT_LT(std::abs(result.summary.energy_balance), 1e-5);
 }
 
 TEST(StopCondition, EndsTheStageAtTheValue) {

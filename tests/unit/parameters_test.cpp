@@ -91,9 +91,25 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(Validate, TablesOneAndThreeAreAcceptedWithoutWarnings) {
   for (const Setting s : {Setting::plane_strain, Setting::plane_stress, Setting::three_d}) {
-    EXPECT_EQ(validate(table1(), s).report(), "");
-    EXPECT_EQ(validate(table3(), s).report(), "");
+    EXPECT_EQ(validate(fpz::test::with_zone(table1(), fpz::CohesiveZone::consistent), s).report(), "");
+    Parameters stiff = fpz::test::with_zone(table3(), fpz::CohesiveZone::consistent);
+    stiff.shear_stiffness = 1e13;
+    EXPECT_EQ(validate(stiff, s).report(), "");
   }
+}
+
+TEST(Validate, WarnsOfPreloadedSpringsAndOfSoftOnes) {
+  const auto said = [](const Parameters& p) {
+    const Validation v = validate(p, Setting::plane_strain);
+    const Violation* w = find(v.warnings, "shear_stiffness");
+    return w != nullptr ? w->constraint : "";
+  };
+  EXPECT_TRUE(contains(said(table1()), "give back up to 1.09")) << said(table1());
+  EXPECT_TRUE(contains(said(table3()), "\"cohesive_zone\": \"consistent\""));
+  EXPECT_TRUE(contains(said(fpz::test::with_zone(table3(), fpz::CohesiveZone::consistent)), "take 1.176471e+12 Pa/m"));
+  Parameters stiff = table3();
+  stiff.shear_stiffness = 1e14;
+  EXPECT_EQ(said(stiff), "");
 }
 
 TEST(Validate, NonFiniteValuesAreErrorsInEveryField) {
@@ -151,7 +167,7 @@ TEST(Validate, DilationEqualToFrictionIsAccepted) {
 TEST(Validate, WarnsAtAndAboveTheSnapBackLength) {
   Parameters p = table1();
   p.rve_length = 14.3e-3;
-  EXPECT_TRUE(validate(p, Setting::plane_strain).warnings.empty());
+  EXPECT_EQ(find(validate(p, Setting::plane_strain).warnings, "rve_length"), nullptr);
   p.rve_length = 15e-3;
   const Validation v = validate(p, Setting::plane_strain);
   EXPECT_TRUE(v.ok());
@@ -166,7 +182,7 @@ TEST(Validate, WarnsAtAndAboveTheSnapBackLength) {
 TEST(Validate, PlaneStressHasItsOwnSnapBackLength) {
   Parameters p = table1();
   p.rve_length = 13e-3;  // between 12.8 mm (plane stress) and 14.4 mm (plane strain)
-  EXPECT_TRUE(validate(p, Setting::plane_strain).warnings.empty());
+  EXPECT_EQ(find(validate(p, Setting::plane_strain).warnings, "rve_length"), nullptr);
   const Validation v = validate(p, Setting::plane_stress);
   const Violation* w = find(v.warnings, "rve_length");
   ASSERT_NE(w, nullptr);

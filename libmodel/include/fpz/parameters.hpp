@@ -16,14 +16,14 @@ enum class SofteningKind : std::uint8_t {};
 
 /// How the jump of a cohesive zone that does not yield follows the traction, the default first (docs/equations.md).
 enum class CohesiveZone : std::uint8_t {
-  published,  ///< t = P K (u + u0 - up), the paper's: springs preloaded at onset by u0 = K^-1 t_onset
-  consistent  ///< u - up = D K^-1 t: rigid at onset, never stores less than nothing
+  consistent,  ///< u - up = D K^-1 t: rigid at onset, never stores less than nothing
+  published    ///< t = P K (u + u0 - up), the paper's: springs preloaded at onset by u0 = K^-1 t_onset
 };
 
 template <>
 struct Words<CohesiveZone> {
-  static constexpr Word<CohesiveZone> list[] = {{CohesiveZone::published, "published"},
-                                                {CohesiveZone::consistent, "consistent"}};
+  static constexpr Word<CohesiveZone> list[] = {{CohesiveZone::consistent, "consistent"},
+                                                {CohesiveZone::published, "published"}};
 };
 
 /// What a material chooses besides its numbers. Files may leave a choice out: it is the default then.
@@ -131,7 +131,9 @@ struct Validation {
 
 /// Checks every constraint of the model. Errors: non-finite or non-positive values, -1 < nu < 0.5, 0 <= psi <= phi, 0 <
 /// phi < 90, c0 > sigma_t0 tan phi (docs/equations.md). Warnings: H at or above the mode I snap-back length (3.6), psi
-/// = 0 (pure opening has no solution), uniaxial tensile strength below sigma_t0 (3.4).
+/// = 0 (pure opening has no solution), uniaxial tensile strength below sigma_t0 (3.4), springs that are preloaded with
+/// more than a tenth of G (published zone) or that are not used because they are softer than the softening
+/// (consistent).
 [[nodiscard]] Validation validate(const Parameters& p, Setting setting);
 
 /// Largest H without snap-back under strain control in mode I: (lambda + 2 mu) l / sigma_t0, and the plane-stress
