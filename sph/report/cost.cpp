@@ -148,7 +148,7 @@ void integrators(std::ostream& out, const Results& r) {
 }  // namespace
 
 void write_cost(std::ostream& out, const Results& r, const Gallery& gallery) {
-  out << "## 4. Speed against error\n";
+  out << "## 5. Speed against error\n";
   (void)write_state(out, r.beam_methods, "Methods");
   (void)write_state(out, r.beam_methods_fine, "Methods at 2 mm");
   const std::vector<Point> points = collect(r);

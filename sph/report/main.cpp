@@ -29,6 +29,8 @@ std::string report(const Results& results, const Gallery& gallery) {
   out << "\n";
   write_ring(out, results, gallery);
   out << "\n";
+  write_method(out, results, gallery);
+  out << "\n";
   write_cost(out, results, gallery);
   return out.str();
 }

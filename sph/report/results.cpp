@@ -130,8 +130,9 @@ SweepRuns load_sweep(const fs::path& folder, const std::string& name) {
 }
 
 std::vector<const SweepRuns*> Results::all() const {
-  return {&beam_spacing,      &beam_fine,  &beam_rollers, &beam_rate,     &beam_methods,
-          &beam_methods_fine, &scb_angles, &scb_updated,  &ring_diameters};
+  return {&beam_spacing,       &beam_fine,   &beam_rollers, &beam_rate,      &beam_methods,
+          &beam_methods_fine,  &scb_angles,  &scb_updated,  &ring_diameters, &method_dogbone,
+          &method_compression, &method_disc, &method_beam};
 }
 
 Results load_results(const fs::path& folder) {
@@ -145,7 +146,31 @@ Results load_results(const fs::path& folder) {
           load("beam_methods_fine"),
           load("scb_angles"),
           load("scb_updated"),
-          load("ring_diameters")};
+          load("ring_diameters"),
+          load("method_dogbone"),
+          load("method_compression"),
+          load("method_disc"),
+          load("method_beam")};
+}
+
+std::optional<Onset> first_crack(const Run& run) {
+  const io::Table t = run.history();
+  const auto& count = t.at("damaged_particles");
+  const auto first = std::find_if(count.begin(), count.end(), [](double n) { return n > 0.0; });
+  if (first == count.end()) return std::nullopt;
+  const auto row = static_cast<std::size_t>(first - count.begin());
+  Onset onset{t.at("load")[row], t.at("deflection")[row]};
+  for (const specimen::Frame& f : run.frames()) {
+    const specimen::PointCloud cloud = run.cloud(f);
+    const specimen::PointData* damage = cloud.find("damage");
+    if (damage == nullptr) continue;
+    const auto most = std::max_element(damage->values.begin(), damage->values.end());
+    if (*most <= 0.0) continue;
+    const auto i = static_cast<std::size_t>(most - damage->values.begin());
+    onset.at = specimen::Point(cloud.points[3 * i], cloud.points[3 * i + 1]);
+    return onset;
+  }
+  return onset;
 }
 
 std::size_t row_after_peak(const io::Table& history, double fraction) {

@@ -1,7 +1,9 @@
 // The runs of the validation sweeps as their folders hold them.
 #pragma once
 
+#include <cmath>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -52,11 +54,20 @@ struct Results {
   std::filesystem::path folder;
   SweepRuns beam_spacing, beam_fine, beam_rollers, beam_rate, beam_methods, beam_methods_fine;
   SweepRuns scb_angles, scb_updated, ring_diameters;
+  SweepRuns method_dogbone, method_compression, method_disc, method_beam;
 
   [[nodiscard]] std::vector<const SweepRuns*> all() const;
 };
 
 [[nodiscard]] Results load_results(const std::filesystem::path& folder);
+
+/// The first crack of a run.
+struct Onset {
+  double load = NAN, deflection = NAN;           ///< of the row in which the first particle is cracked
+  specimen::Point at = specimen::Point::Zero();  ///< the most damaged particle of the first frame that shows damage
+};
+/// Nothing when no particle has cracked.
+[[nodiscard]] std::optional<Onset> first_crack(const Run& run);
 
 /// The row of a history at which the load first falls to `fraction` of its peak after it; 1: the peak. The last row
 /// when it never does.

@@ -24,31 +24,6 @@ double hoop_load(const Run& run) {
   return NAN;
 }
 
-struct Onset {
-  double load = NAN, deflection = NAN;           ///< of the row in which the first particle is cracked
-  specimen::Point at = specimen::Point::Zero();  ///< the most damaged particle of the first frame that shows damage
-};
-
-std::optional<Onset> onset_of(const Run& run) {
-  const io::Table t = run.history();
-  const auto& count = t.at("damaged_particles");
-  const auto first = std::find_if(count.begin(), count.end(), [](double n) { return n > 0.0; });
-  if (first == count.end()) return std::nullopt;
-  const auto row = static_cast<std::size_t>(first - count.begin());
-  Onset onset{t.at("load")[row], t.at("deflection")[row]};
-  for (const specimen::Frame& f : run.frames()) {
-    const specimen::PointCloud cloud = run.cloud(f);
-    const specimen::PointData* damage = cloud.find("damage");
-    if (damage == nullptr) continue;
-    const auto most = std::max_element(damage->values.begin(), damage->values.end());
-    if (*most <= 0.0) continue;
-    const auto i = static_cast<std::size_t>(most - damage->values.begin());
-    onset.at = specimen::Point(cloud.points[3 * i], cloud.points[3 * i + 1]);
-    return onset;
-  }
-  return onset;
-}
-
 /// Fewer particles are no crack: two columns, five particles long.
 constexpr std::size_t smallest_crack = 10;
 
@@ -99,7 +74,7 @@ Reading ring_table(std::ostream& out, const std::vector<const Run*>& runs) {
   for (const Run* run : runs) {
     const double spacing = run->setting("spacing"), peak = run->figure("peak_load");
     const double hole = run->value * run->setting("shape/radius");
-    const std::optional<Onset> onset = onset_of(*run);
+    const std::optional<Onset> onset = first_crack(*run);
     const Secondary second = secondary_of(*run);
     reading.falls = reading.falls && peak < before;
     before = peak;
@@ -138,7 +113,7 @@ void pictures(std::ostream& out, const std::vector<const Run*>& runs, const Gall
   std::size_t k = 0;
   for (const Run* run : runs) {
     top.points.emplace_back(run->value, 1e-3 * run->figure("peak_load"));
-    if (const auto onset = onset_of(*run)) first.points.emplace_back(run->value, 1e-3 * onset->load);
+    if (const auto onset = first_crack(*run)) first.points.emplace_back(run->value, 1e-3 * onset->load);
     if (std::isfinite(hoop_load(*run))) elastic.points.emplace_back(run->value, 1e-3 * hoop_load(*run));
     curves.series.push_back(load_curve(*run, "d/D " + run->label, curve_style(k++)));
     maps.push_back(crack_map(*run, run->frames().back(), "d/D " + run->label));

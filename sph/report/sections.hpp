@@ -11,6 +11,7 @@ namespace fpz::report {
 void write_beam(std::ostream& out, const Results& results, const Gallery& gallery);
 void write_semicircular(std::ostream& out, const Results& results, const Gallery& gallery);
 void write_ring(std::ostream& out, const Results& results, const Gallery& gallery);
+void write_method(std::ostream& out, const Results& results, const Gallery& gallery);
 void write_cost(std::ostream& out, const Results& results, const Gallery& gallery);
 
 }  // namespace fpz::report

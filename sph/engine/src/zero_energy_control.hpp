@@ -32,7 +32,7 @@ class ZeroEnergyControl {
   static void fields(Self& self, Visit&& visit) {
     using V = View<Dim>;
     constexpr Extent each = Extent::particle;
-    visit(FieldInfo{"zero_energy_fit", each, Keep::constant}, self.fit_, &V::zero_energy_fit);
+    visit(FieldInfo{"zero_energy_fit", each, Keep::saved}, self.fit_, &V::zero_energy_fit);
     visit(FieldInfo{"zero_energy_displacement", each, Keep::saved}, self.displacement_, &V::zero_energy_displacement);
     visit(FieldInfo{"zero_energy_gradient", each, Keep::passing}, self.gradient_, &V::zero_energy_gradient);
     visit(FieldInfo{"zero_energy_force", each, Keep::passing}, self.force_, &V::zero_energy_force);

@@ -28,6 +28,20 @@ long long steps_to_deflection(const Scene& scene, double time_step) {
   return std::llround(std::ceil(time / time_step));
 }
 
+/// Slots as asked for and as their particles make them.
+std::string slots_text(const Scene& scene, const Specimen& specimen) {
+  std::ostringstream s;
+  s.precision(3);
+  for (std::size_t k = 0; k < specimen.slots.size(); ++k) {
+    const Notch& n = scene.body.notches[k];
+    if (n.width <= 0.0) continue;
+    s << "  notch " << k << "           " << 1e3 * specimen.slots[k].width << " mm wide, "
+      << 1e3 * specimen.slots[k].length << " mm long by its particles (asked for " << 1e3 * n.width << " and "
+      << 1e3 * (n.tip - n.mouth).norm() << ")\n";
+  }
+  return s.str();
+}
+
 }  // namespace
 
 Estimate estimate(const Scene& scene, const Specimen& specimen, int threads) {
@@ -64,8 +78,8 @@ std::string estimate_text(const Scene& scene, const Specimen& specimen, const Es
   s.precision(3);
   s << "  particles         " << specimen.setup.arrangement.size() << " (" << e.mean_neighbours << " neighbours each)\n"
     << "  specimen area     " << 1e6 * specimen.area << " mm^2\n"
-    << "  time step         " << e.schedule.time_step << " s, row every " << e.schedule.row_every
-    << " steps, frame every " << e.schedule.frame_every << "\n"
+    << slots_text(scene, specimen) << "  time step         " << e.schedule.time_step << " s, row every "
+    << e.schedule.row_every << " steps, frame every " << e.schedule.frame_every << "\n"
     << "  steps             at most " << e.schedule.steps;
   if (e.likely_steps < e.schedule.steps) s << ", about " << e.likely_steps << " to stop.deflection";
   s << "\n  speed             " << 1e-6 * count / e.step_seconds << " million particle-steps/s (uncracked)\n"

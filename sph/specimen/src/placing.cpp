@@ -5,6 +5,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "scattered.hpp"
+
 namespace fpz::specimen {
 namespace {
 
@@ -135,6 +137,13 @@ double first_hit(const Shape& shape, const Point& start, const Point& d, double 
   return -1.0;
 }
 
+sph::Arrangement<2> ordered(const Body& body, const Pattern& pattern, double spacing) {
+  if (pattern.kind == Pattern::Kind::rings) return rings(body, spacing);
+  const auto* r = std::get_if<Rectangle>(&body.shape);
+  if (pattern.fit && r != nullptr && pattern.angle == 0.0) return fitted_lattice(body, *r, spacing);
+  return lattice(body, pattern, spacing);
+}
+
 }  // namespace
 
 sph::Arrangement<2> place_specimen(const Body& body, const Pattern& pattern, double spacing) {
@@ -142,10 +151,14 @@ sph::Arrangement<2> place_specimen(const Body& body, const Pattern& pattern, dou
   if ((high - low).prod() / (spacing * spacing) > most_particles) {
     throw std::invalid_argument("the spacing is so small that there would be more than 2e8 particles");
   }
-  if (pattern.kind == Pattern::Kind::rings) return rings(body, spacing);
-  const auto* r = std::get_if<Rectangle>(&body.shape);
-  if (pattern.fit && r != nullptr && pattern.angle == 0.0) return fitted_lattice(body, *r, spacing);
-  return lattice(body, pattern, spacing);
+  if (pattern.kind == Pattern::Kind::scattered) {
+    sph::Arrangement<2> a = detail::scatter(body, pattern.seed, spacing);
+    share_area(a, body);
+    return a;
+  }
+  sph::Arrangement<2> a = ordered(body, pattern, spacing);
+  if (pattern.move > 0.0) detail::move_at_random(a, body, pattern.move * spacing, pattern.seed);
+  return a;
 }
 
 void place_platen(sph::Arrangement<2>& a, const Shape& shape, const Platen& platen, int group) {

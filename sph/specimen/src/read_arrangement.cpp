@@ -1,5 +1,6 @@
 // How the particles of the specimen lie: one reader per kind of arrangement, listed in arrangement_kinds.
 #include <cmath>
+#include <limits>
 
 #include "scene_reader.hpp"
 
@@ -40,24 +41,48 @@ void read_lattice_axes(const InputReader& r, const Place& place, Scene& scene) {
   });
 }
 
-constexpr std::string_view lattice_keys[] = {"type", "angle_deg", "origin", "align_to_notch"};
+void read_seed(const InputReader& r, const Place& place, Pattern& pattern) {
+  with(place, "seed", [&](const Place& p) {
+    pattern.seed = static_cast<std::uint64_t>(r.integer(p, 0, std::numeric_limits<int>::max()).value_or(1));
+  });
+}
+
+/// Random displacements of particles that are in order.
+void read_move(const InputReader& r, const Place& place, Pattern& pattern) {
+  with(place, "move", [&](const Place& p) { pattern.move = r.number_between(p, 0.0, 0.3, true).value_or(0.0); });
+  with(place, "seed", [&](const Place& p) {
+    if (place.value().find("move") == nullptr) r.problem(p, "has no effect without \"move\"");
+  });
+  read_seed(r, place, pattern);
+}
+
+constexpr std::string_view lattice_keys[] = {"type", "angle_deg", "origin", "align_to_notch", "move", "seed"};
 void read_lattice(const InputReader& r, const Place& place, Scene& scene) {
   scene.pattern.kind = Pattern::Kind::lattice;
   read_lattice_axes(r, place, scene);
+  read_move(r, place, scene.pattern);
 }
 
+constexpr std::string_view sheared_keys[] = {"type", "angle_deg", "origin", "align_to_notch"};
 void read_sheared(const InputReader& r, const Place& place, Scene& scene) {
   scene.pattern.kind = Pattern::Kind::sheared;
   scene.pattern.fit = false;
   read_lattice_axes(r, place, scene);
 }
 
-constexpr std::string_view rings_keys[] = {"type"};
+constexpr std::string_view rings_keys[] = {"type", "move", "seed"};
 void read_rings(const InputReader& r, const Place& place, Scene& scene) {
   scene.pattern.kind = Pattern::Kind::rings;
+  read_move(r, place, scene.pattern);
   if (std::holds_alternative<Rectangle>(scene.body.shape) || std::holds_alternative<Polygon>(scene.body.shape)) {
     r.problem(place, "rings need a disc, a half disc or a ring");
   }
+}
+
+constexpr std::string_view scattered_keys[] = {"type", "seed"};
+void read_scattered(const InputReader& r, const Place& place, Scene& scene) {
+  scene.pattern.kind = Pattern::Kind::scattered;
+  read_seed(r, place, scene.pattern);
 }
 
 constexpr std::string_view file_keys[] = {"type", "file"};
@@ -74,9 +99,10 @@ struct ArrangementKind {
   Keys keys;
   void (*read)(const InputReader&, const Place&, Scene&);
 };
-constexpr std::array<ArrangementKind, 4> arrangement_kinds = {{{"lattice", lattice_keys, read_lattice},
-                                                               {"sheared", lattice_keys, read_sheared},
+constexpr std::array<ArrangementKind, 5> arrangement_kinds = {{{"lattice", lattice_keys, read_lattice},
+                                                               {"sheared", sheared_keys, read_sheared},
                                                                {"rings", rings_keys, read_rings},
+                                                               {"scattered", scattered_keys, read_scattered},
                                                                {"file", file_keys, read_file}}};
 
 }  // namespace

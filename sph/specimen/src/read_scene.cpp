@@ -1,3 +1,5 @@
+#include <sstream>
+
 #include "fpz/io/material_file.hpp"
 #include "fpz/specimen/scene.hpp"
 #include "scene_reader.hpp"
@@ -37,6 +39,20 @@ std::optional<io::MaterialFile> read_material_of(const InputReader& r, JsonValue
   file->root.key = given->key;
   *member(root, "material") = std::move(file->root);
   return material;
+}
+
+/// A mesh of particles cannot follow a process zone that is a few spacings long.
+void judge_resolution(Scene& scene) {
+  constexpr double least_spacings = 5.0;
+  const Parameters& p = scene.parameters;
+  const double confined = scene.setting == Setting::plane_strain ? 1.0 - p.poisson_ratio * p.poisson_ratio : 1.0;
+  const double zone = p.young_modulus / confined * p.delta0 / p.tensile_strength;  // E G / sigma_t0^2
+  if (zone >= least_spacings * scene.spacing) return;
+  std::ostringstream text;
+  text << "spacing = " << scene.spacing
+       << ": too coarse for this material, whose process zone is about E G / sigma_t0^2 = " << zone
+       << " m long; peak loads then depend on the spacing (at most " << zone / least_spacings << ")";
+  scene.warnings.push_back(text.str());
 }
 
 void read_header(const InputReader& r, const Place& root, Scene& scene) {
@@ -89,6 +105,9 @@ Scene read_tree(JsonValue& root, const std::string& origin, const io::ReadLimits
     scene.parameters = material->parameters;
     scene.material_name = material->name;
     scene.warnings = io::check_material(*material, scene.parameters, scene.setting, std::nullopt, problems);
+    judge_resolution(scene);
+    const std::string why = why_unfit(scene.options.method, scene.parameters.choices);
+    if (!why.empty()) r.problem(top, why);
   }
   make_paths_absolute(root, scene);
   scene.text = to_text(root);

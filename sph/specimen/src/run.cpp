@@ -128,6 +128,11 @@ class Runner {
     write_crack(files_.crack, paths);
     const Findings f = findings(scene_, result.history, opened_length(all, scene_.spacing));
     result.warnings = warnings_of(scene_, result.history, f);
+    const std::string error = error_of_the_model(scene_, f);
+    if (!error.empty()) {
+      result.ending = Ending::failed;
+      result.reason += (result.reason.empty() ? "" : "; ") + error;
+    }
     result.report = report_of(f);
     io::write_text(files_.summary, summary_text({scene_, specimen_, run_, result, f, paths, pieces}), true);
     std::error_code ignored;

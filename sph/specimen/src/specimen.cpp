@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <thread>
 
@@ -62,6 +63,19 @@ bool is_updated(const Specimen& s) { return s.setup.options.configuration == sph
 
 }  // namespace
 
+SlotOfParticles slot_of_particles(const Notch& notch, const sph::Arrangement<2>& particles, double spacing) {
+  const double none = std::numeric_limits<double>::infinity();
+  const double length = (notch.tip - notch.mouth).norm();
+  double left = none, right = none, beyond = none;
+  for (const Point& x : particles.position) {
+    const double s = along(notch).dot(x - notch.mouth), d = across(notch).dot(x - notch.mouth);
+    if (s > 0.0 && s < length) (d > 0.0 ? left : right) = std::min(d > 0.0 ? left : right, std::abs(d));
+    if (s >= length - spacing && std::abs(d) < 0.5 * std::max(notch.width, spacing)) beyond = std::min(beyond, s);
+  }
+  const auto known = [](double x) { return std::isfinite(x) ? x : std::numeric_limits<double>::quiet_NaN(); };
+  return {known(left + right - spacing), known(beyond - 0.5 * spacing)};
+}
+
 Specimen make_specimen(const Scene& scene) {
   Specimen s;
   try {
@@ -72,6 +86,9 @@ Specimen make_specimen(const Scene& scene) {
   for (const Notch& n : scene.body.notches) s.setup.arrangement.cuts.push_back(cut_of(n));
   if (!scene.particles) s.setup.arrangement.surface = surface_lines(scene.body, 0.25 * scene.spacing);
   const sph::Arrangement<2>& a = s.setup.arrangement;
+  for (const Notch& n : scene.body.notches) {
+    s.slots.push_back(n.width > 0.0 ? slot_of_particles(n, a, scene.spacing) : SlotOfParticles());
+  }
   for (std::size_t i = 0; i < a.size(); ++i) {
     if (a.group[i] == sph::Arrangement<2>::specimen) s.area += a.volume[i];
   }

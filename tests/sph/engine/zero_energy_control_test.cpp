@@ -156,7 +156,7 @@ TEST(ZeroEnergyControl, WhatItHeldAtCracksIsDissipated) {
     advance(controlled, 25);
     const Energies e = controlled.energies();
     EXPECT_GE(e.zero_energy, 0.0);
-    EXPECT_GE(e.viscous, last);
+    EXPECT_GE(e.viscous, last * (1.0 - 1e-9));  // differences of energies, rounded
     last = e.viscous;
   }
   const Energies e = controlled.energies();

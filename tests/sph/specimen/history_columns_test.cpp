@@ -26,6 +26,7 @@ TEST(HistoryColumns, NamesAndOrder) {
                                              "energy_elastic",
                                              "energy_kinetic",
                                              "energy_fracture",
+                                             "energy_zero_energy",
                                              "energy_viscous",
                                              "energy_damping",
                                              "energy_artificial",

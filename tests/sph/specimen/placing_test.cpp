@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <complex>
 #include <numbers>
 #include <numeric>
 #include <stdexcept>
@@ -94,6 +96,167 @@ TEST(Placing, RingsAreSymmetricAboutBothAxes) {
   EXPECT_THROW((void)place_specimen({Disc{Point(0, 0), 0.1}, {Disc{Point(0, 0), 0.2}}, {}},
                                     pattern(Pattern::Kind::lattice), 0.05),
                std::invalid_argument);
+}
+
+/// The lines of the surface and the cuts.
+std::vector<std::vector<Point>> walls(const Body& body) {
+  std::vector<std::vector<Point>> lines = surface_lines(body, 1e-3);
+  for (const Notch& n : body.notches) {
+    if (n.width <= 0.0) lines.push_back({n.mouth, n.tip});
+  }
+  return lines;
+}
+
+double distance_to(const std::vector<std::vector<Point>>& lines, const Point& x) {
+  double nearest = 1e300;
+  for (const auto& line : lines) {
+    for (std::size_t k = 0; k + 1 < line.size(); ++k) {
+      const Point d = line[k + 1] - line[k];
+      const double along = std::clamp((x - line[k]).dot(d) / d.squaredNorm(), 0.0, 1.0);
+      nearest = std::min(nearest, (line[k] + along * d - x).norm());
+    }
+  }
+  return nearest;
+}
+
+/// Of the particles of a body: distances to the nearest neighbour in spacings; and of those three spacings away from
+/// walls, beside which they lie in rows, the length of the mean of exp(n i angle) over the directions to the nearest
+/// neighbour: 1 where all are multiples of 360/n degrees apart.
+struct Neighbours {
+  double least = 1e300, mean = 0.0, fourfold = 0.0, sixfold = 0.0;
+};
+
+Neighbours neighbours(const fpz::sph::Arrangement<2>& a, const Body& body) {
+  const std::vector<std::vector<Point>> lines = walls(body);
+  Neighbours all;
+  std::complex<double> four, six;
+  const auto count = static_cast<double>(a.size());
+  double inner = 0.0;
+  for (const Point& x : a.position) {
+    Point nearest = Point::Constant(1e300);
+    for (const Point& y : a.position) {
+      if (&x != &y && (y - x).squaredNorm() < nearest.squaredNorm()) nearest = y - x;
+    }
+    const double angle = std::atan2(nearest[1], nearest[0]);
+    all.least = std::min(all.least, nearest.norm() / a.spacing);
+    all.mean += nearest.norm() / a.spacing / count;
+    if (distance_to(lines, x) < 3.0 * a.spacing) continue;
+    inner += 1.0;
+    four += std::polar(1.0, 4.0 * angle);
+    six += std::polar(1.0, 6.0 * angle);
+  }
+  all.fourfold = std::abs(four) / inner;
+  all.sixfold = std::abs(six) / inner;
+  return all;
+}
+
+Pattern scattered(std::uint64_t seed) {
+  Pattern p = pattern(Pattern::Kind::scattered);
+  p.seed = seed;
+  return p;
+}
+
+const Body notched_with_hole = {Rectangle{Point(-0.16, 0), Point(0.16, 0.08)},
+                                {Disc{Point(0.06, 0.05), 0.015}},
+                                {{Point(0, 0), Point(0, 0.02), 0.006}, {Point(-0.08, 0), Point(-0.07, 0.03), 0.0}}};
+
+TEST(Placing, ScatteredParticlesAreEvenAndHaveNoDirections) {
+  const Body bodies[] = {
+      notched_with_hole,
+      {Disc{Point(0, 0), 0.1}, {}, {}},
+      {HalfDisc{Point(0, 0), 0.12}, {}, {}},
+      {Ring{Point(0, 0), 0.03, 0.1}, {}, {}},
+      {Polygon{{Point(0, 0), Point(0.2, 0), Point(0.2, 0.1), Point(0.1, 0.1), Point(0, 0.2)}}, {}, {}}};
+  constexpr double spacing = 0.003;
+  for (const Body& b : bodies) {
+    for (const std::uint64_t seed : {1u, 2u, 3u}) {
+      const fpz::sph::Arrangement<2> a = place_specimen(b, scattered(seed), spacing);
+      EXPECT_EQ(a.size(), static_cast<std::size_t>(std::lround(area(b) / (spacing * spacing))));
+      EXPECT_NEAR(volume(a), area(b), 1e-12 * area(b));
+      EXPECT_EQ(a.volume.front(), a.volume.back());
+      const Neighbours n = neighbours(a, b);
+      EXPECT_GE(n.least, 0.6);
+      EXPECT_GE(n.mean, 0.85);
+      EXPECT_LE(n.mean, 1.05);
+      EXPECT_LT(n.fourfold, 0.1);
+      EXPECT_LT(n.sixfold, 0.1);
+    }
+  }
+  const Neighbours lattice = neighbours(place_specimen(bodies[1], pattern(Pattern::Kind::lattice), spacing), bodies[1]);
+  EXPECT_NEAR(lattice.fourfold, 1.0, 1e-9);
+}
+
+TEST(Placing, ScatteredParticlesKeepHalfASpacingFromSurfacesAndCuts) {
+  constexpr double spacing = 0.004;
+  const fpz::sph::Arrangement<2> a = place_specimen(notched_with_hole, scattered(1), spacing);
+  const std::vector<std::vector<Point>> lines = walls(notched_with_hole);
+  std::size_t at_the_wall = 0;
+  for (const Point& x : a.position) {
+    EXPECT_TRUE(contains(notched_with_hole, x));
+    const double distance = distance_to(lines, x) / spacing;
+    EXPECT_GE(distance, 0.5 - 1e-3);
+    if (distance < 0.7) ++at_the_wall;
+  }
+  // One per spacing of the surface and of both sides of the cut, but for the corners.
+  const double length = 2 * (0.32 + 0.08) + 2 * pi * 0.015 + 2 * 0.02 + 2 * std::hypot(0.01, 0.03);
+  EXPECT_NEAR(static_cast<double>(at_the_wall), length / spacing, 0.15 * length / spacing);
+}
+
+TEST(Placing, ScatteredParticlesDoNotCrowdInCorners) {
+  const Body square = {Rectangle{Point(0, 0), Point(0.1, 0.1)}, {}, {}};
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    EXPECT_GE(neighbours(place_specimen(square, scattered(seed), 0.01), square).least, 0.6) << seed;
+  }
+}
+
+TEST(Placing, TheSeedDecidesWhereParticlesAreScattered) {
+  const Body disc = {Disc{Point(0, 0), 0.1}, {}, {}};
+  const fpz::sph::Arrangement<2> a = place_specimen(disc, scattered(7), 0.01),
+                                 b = place_specimen(disc, scattered(7), 0.01),
+                                 c = place_specimen(disc, scattered(8), 0.01);
+  EXPECT_EQ(a.position, b.position);
+  ASSERT_EQ(a.size(), c.size());
+  EXPECT_NE(a.position, c.position);
+  EXPECT_THROW((void)place_specimen({Rectangle{Point(0, 0), Point(0.1, 0.006)}, {}, {}}, scattered(1), 0.01),
+               std::invalid_argument);
+}
+
+TEST(Placing, MoveDisplacesByAtMostItsShareOfTheSpacing) {
+  const Body half = {HalfDisc{Point(0, 0), 0.1}, {}, {{Point(0, 0), Point(0.011, 0.03), 0.0}}};
+  const Notch& cut = half.notches[0];
+  constexpr double spacing = 0.003;
+  for (const auto kind : {Pattern::Kind::lattice, Pattern::Kind::rings}) {
+    Pattern p = pattern(kind);
+    const fpz::sph::Arrangement<2> still = place_specimen(half, p, spacing);
+    p.move = 0.3;
+    p.seed = 5;
+    const fpz::sph::Arrangement<2> moved = place_specimen(half, p, spacing);
+    EXPECT_EQ(moved.position, place_specimen(half, p, spacing).position);
+    p.seed = 6;
+    EXPECT_NE(moved.position, place_specimen(half, p, spacing).position);
+    ASSERT_EQ(still.size(), moved.size());
+    EXPECT_EQ(still.volume, moved.volume);
+    double largest = 0.0, square = 0.0;
+    Point mean = Point::Zero();
+    for (std::size_t i = 0; i < still.size(); ++i) {
+      const Point d = (moved.position[i] - still.position[i]) / spacing;
+      largest = std::max(largest, d.cwiseAbs().maxCoeff());
+      square += d.squaredNorm() / static_cast<double>(still.size());
+      mean += d / static_cast<double>(still.size());
+      EXPECT_TRUE(contains(half, moved.position[i]));
+      const Point from = still.position[i] - cut.mouth, to = moved.position[i] - cut.mouth;
+      const double length = (cut.tip - cut.mouth).norm();
+      const auto level_with_cut = [&](const Point& at) {
+        return at.dot(along(cut)) > 0.0 && at.dot(along(cut)) < length;
+      };
+      const bool beside = level_with_cut(from) && level_with_cut(to);
+      EXPECT_TRUE(!beside || from.dot(across(cut)) * to.dot(across(cut)) > 0.0);
+    }
+    EXPECT_LE(largest, 0.3 + 1e-9);
+    EXPECT_GT(largest, 0.29);
+    EXPECT_NEAR(square, 2.0 * 0.3 * 0.3 / 3.0, 0.005);  // uniform in the square
+    EXPECT_LT(mean.norm(), 0.02);
+  }
 }
 
 TEST(Placing, PlatensLieOnTheSurface) {

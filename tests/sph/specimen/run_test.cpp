@@ -158,12 +158,12 @@ TEST(Run, AnExplodingRunSaysSo) {
 TEST(Summary, WarnsWithoutBeingAsked) {
   const Scene scene = small_beam({"method.damping=0.1", "method.mass_scale=4"});
   History h;
-  h.columns = {"deflection",      "load",           "support",
-               "energy_external", "energy_elastic", "energy_kinetic",
-               "energy_fracture", "energy_damping", "energy_error"};
+  h.columns = {"deflection",     "load",           "support",         "energy_external",
+               "energy_elastic", "energy_kinetic", "energy_fracture", "energy_damping",
+               "energy_error",   "energy_viscous"};
   for (int k = 0; k <= 20; ++k) {
     const double u = 1e-6 * k;
-    h.values.insert(h.values.end(), {u, 1e8 * u, 0.9e8 * u, 1.0, 0.5, 0.1, 0.1, 0.2, 0.05});
+    h.values.insert(h.values.end(), {u, 1e8 * u, 0.9e8 * u, 1.0, 0.5, 0.1, 0.1, 0.2, 0.05, 0.0});
   }
   const Findings f = findings(scene, h, 0.0);
   EXPECT_NEAR(f.stiffness, 1e8, 1.0);
@@ -175,6 +175,61 @@ TEST(Summary, WarnsWithoutBeingAsked) {
                                "local damping", "mass_scale"}) {
     EXPECT_NE(all.find(expected), std::string::npos) << expected << "\n" << all;
   }
+}
+
+/// A history of four rows: external work, elastic, kinetic, fracture and viscous energy of each.
+History energies(const std::vector<std::array<double, 5>>& rows) {
+  History h;
+  h.columns = {"deflection",      "load",           "support",
+               "energy_external", "energy_elastic", "energy_kinetic",
+               "energy_fracture", "energy_viscous", "energy_error"};
+  double u = 0.0;
+  for (const auto& [work, elastic, kinetic, fracture, viscous] : rows) {
+    const double load = u < 2.5e-6 ? 1e8 * u : 0.0;
+    h.values.insert(h.values.end(), {u, load, load, work, elastic, kinetic, fracture, viscous,
+                                     work - elastic - kinetic - fracture - viscous});
+    u += 1e-6;
+  }
+  return h;
+}
+
+std::string warnings(const Scene& scene, const History& h, const Findings& f) {
+  std::string all;
+  for (const std::string& w : warnings_of(scene, h, f)) all += w + "\n";
+  return all;
+}
+
+TEST(Summary, MoreMotionThanWorkIsACollapse) {
+  const Scene scene = small_beam({});
+  const History calm = energies({{0, 0, 0, 0, 0}, {1, 1, 0, 0, 0}, {4, 4, 0, 0, 0}, {4, 0, 1.5, 0.5, 2}});
+  EXPECT_EQ(warnings(scene, calm, findings(scene, calm, 0.0)).find("brittle collapse"), std::string::npos);
+  const History wild = energies({{0, 0, 0, 0, 0}, {1, 1, 0, 0, 0}, {4, 4, 0, 0, 0}, {4, -2, 3, 1, 2}});
+  EXPECT_NE(warnings(scene, wild, findings(scene, wild, 0.0)).find("brittle collapse"), std::string::npos);
+}
+
+TEST(Summary, LessThanNothingStoredIsAnErrorOfTheModel) {
+  const Scene scene = small_beam({"material.cohesive_zone=published"});
+  const History sound = energies({{0, 0, 0, 0, 0}, {1, 1, 0, 0, 0}, {4, 3, 0, 1, 0}, {4, 0, 0, 4, 0}});
+  EXPECT_EQ(error_of_the_model(scene, findings(scene, sound, 0.0)), "");
+  const History negative = energies({{0, 0, 0, 0, 0}, {1, 1, 0, 0, 0}, {4, 3, 0, 1, 0}, {4, -0.1, 0, 4.1, 0}});
+  const std::string error = error_of_the_model(scene, findings(scene, negative, 0.0));
+  EXPECT_NE(error.find("-2.5 % of the external work"), std::string::npos) << error;
+  EXPECT_NE(error.find("\"cohesive_zone\": \"consistent\""), std::string::npos) << error;
+}
+
+TEST(Summary, FractureFarFromGIsSaid) {
+  const Scene scene = small_beam({});
+  const double area = 0.05 * scene.thickness;
+  const double g = scene.parameters.tensile_strength * scene.parameters.delta0;
+  const auto said = [&](double ratio) {
+    const double fracture = ratio * area * g;
+    const History h = energies({{0, 0, 0, 0, 0}, {1, 1, 0, 0, 0}, {4, 3, 0, 1, 0}, {4, 0, 0, fracture, 0}});
+    return warnings(scene, h, findings(scene, h, 0.05)).find("of crack area times G") != std::string::npos;
+  };
+  EXPECT_TRUE(said(0.5));
+  EXPECT_FALSE(said(0.9));
+  EXPECT_FALSE(said(1.2));
+  EXPECT_TRUE(said(1.5));
 }
 
 }  // namespace

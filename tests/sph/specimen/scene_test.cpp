@@ -62,6 +62,17 @@ TEST(Scene, OverridesReplacePartsOfAMaterialFile) {
   EXPECT_NE(beam_complaint({"material.cohesion=1"}).find("material.cohesion = 1: must be >"), std::string::npos);
 }
 
+TEST(Scene, SpacingsTooCoarseForTheProcessZoneAreSaid) {
+  const auto said = [](const Overrides& set) {
+    std::string all;
+    for (const std::string& w : read_scene(scenes / "beam_3pb.json", set).warnings) all += w + "\n";
+    return all.find("too coarse for this material") != std::string::npos;
+  };
+  EXPECT_FALSE(said({}));                       // 269 mm
+  EXPECT_TRUE(said({"material.delta0=1e-6"}));  // 16 mm
+  EXPECT_FALSE(said({"material.delta0=1e-6", "spacing=0.002"}));
+}
+
 TEST(Scene, OverridesAreCheckedLikeTheFile) {
   EXPECT_NE(beam_complaint({"method.courrant=0.3"}).find("did you mean \"courant\"?"), std::string::npos);
   EXPECT_NE(beam_complaint({"spacing=-1"}).find("spacing: -1: must be > 0"), std::string::npos);
@@ -69,6 +80,23 @@ TEST(Scene, OverridesAreCheckedLikeTheFile) {
   EXPECT_NE(beam_complaint({"spacing"}).find("expected path=value"), std::string::npos);
   EXPECT_NE(beam_complaint({"spacing.x=1"}).find("where the scene has the number"), std::string::npos);
   EXPECT_NE(beam_complaint({"method.kernel=cubic"}).find("did you mean \"cubic_spline\"?"), std::string::npos);
+}
+
+TEST(Scene, ArrangementsAtRandomHaveASeed) {
+  const Pattern scattered =
+      read_scene(scenes / "beam_3pb.json", {R"(arrangement={"type":"scattered","seed":0})"}).pattern;
+  EXPECT_EQ(scattered.kind, Pattern::Kind::scattered);
+  EXPECT_EQ(scattered.seed, 0u);
+  const Pattern moved =
+      read_scene(scenes / "beam_3pb.json", {R"(arrangement={"type":"lattice","move":0.2,"seed":3})"}).pattern;
+  EXPECT_EQ(moved.move, 0.2);
+  EXPECT_EQ(moved.seed, 3u);
+  const auto said = [](const std::string& arrangement) { return beam_complaint({"arrangement=" + arrangement}); };
+  EXPECT_NE(said(R"({"type":"scattered","seed":-1})").find("arrangement.seed: -1"), std::string::npos);
+  EXPECT_NE(said(R"({"type":"scattered","seed":1.5})").find("arrangement.seed: 1.5"), std::string::npos);
+  EXPECT_NE(said(R"({"type":"lattice","move":0.31})").find("arrangement.move: 0.31"), std::string::npos);
+  EXPECT_NE(said(R"({"type":"lattice","seed":1})").find("has no effect without \"move\""), std::string::npos);
+  EXPECT_NE(said(R"({"type":"scattered","move":0.1})").find("move"), std::string::npos);
 }
 
 TEST(Scene, AllProblemsAreReportedWithTheirLines) {
@@ -137,6 +165,16 @@ TEST(Scene, NotchOpeningLooksAtBothFaces) {
 }
 
 /// Particles interact around the tip of a notch but never across its faces, whatever its width and angle.
+TEST(Scene, SlotsAreMeasuredAtTheirParticles) {
+  // 4 mm columns beside the slot of 9.6 mm: two are missing. Rows of 4 mm: the end at 8 mm is met.
+  const Specimen coarse = make_specimen(read_scene(scenes / "beam_3pb.json", {}));
+  ASSERT_EQ(coarse.slots.size(), 1u);
+  EXPECT_NEAR(coarse.slots[0].width, 8e-3, 1e-6);
+  EXPECT_NEAR(coarse.slots[0].length, 8e-3, 1e-6);
+  const Specimen longer = make_specimen(read_scene(scenes / "beam_3pb.json", {"notches[0].length=0.011"}));
+  EXPECT_NEAR(longer.slots[0].length, 12e-3, 1e-6);
+}
+
 TEST(Scene, NotchesOfAnyWidthSeparateTheirFaces) {
   for (const char* width : {"0", "0.0005", "\"narrowest\""}) {
     for (const int angle : {0, 15, 30, 45, 54, 60}) {

@@ -14,19 +14,22 @@ namespace fpz::specimen {
 /// How the particles of the specimen lie.
 struct Pattern {
   enum class Kind : std::uint8_t {
-    lattice,  ///< squares, turned by `angle` about `origin` (a corner of a cell)
-    sheared,  ///< rows parallel to x, each shifted so that columns follow a direction `angle` away from y
-    rings     ///< concentric rings of a disc, half disc or ring
+    lattice,   ///< squares, turned by `angle` about `origin` (a corner of a cell)
+    sheared,   ///< rows parallel to x, each shifted so that columns follow a direction `angle` away from y
+    rings,     ///< concentric rings of a disc, half disc or ring
+    scattered  ///< even but without directions, half a spacing away from surfaces and cuts
   };
   Kind kind = Kind::lattice;
   double angle = 0.0;  ///< radian, counter-clockwise
   Point origin = Point::Zero();
-  bool fit = false;  ///< lattice in a rectangle: cells stretched a little so that whole ones fill it (angle 0)
+  bool fit = false;        ///< lattice in a rectangle: cells stretched a little so that whole ones fill it (angle 0)
+  double move = 0.0;       ///< lattice and rings: largest random displacement along x and along y, in spacings
+  std::uint64_t seed = 1;  ///< of `scattered` and of `move`; the same seed gives the same bits
 };
 
 /// Particles of the specimen. All have one volume (rings: one per ring), such that the sum is the area of the body
-/// exactly. `spacing` is the wanted distance. Throws std::invalid_argument when the pattern does not suit the shape or
-/// no particle fits.
+/// exactly. `spacing` is the wanted distance. Throws std::invalid_argument when the pattern does not suit the shape,
+/// or not all or none of the particles fit.
 [[nodiscard]] sph::Arrangement<2> place_specimen(const Body& body, const Pattern& pattern, double spacing);
 
 /// A roller or platen: columns of particles on the surface.

@@ -21,11 +21,17 @@ struct Findings {
   double kinetic_ratio_after = 0.0;  ///< the same after the peak
   double imbalance = 0.0;            ///< largest |load - support| over the peak, between half the peak and it
   double balance_error = 0.0;        ///< largest error of the energy balance over the largest external work
+  double least_elastic = 0.0;        ///< smallest elastic energy over the largest external work: < 0 cannot be
+  double motion_ratio = 0.0;         ///< largest (kinetic + viscous) energy gained over the external work of its row
 };
 
 [[nodiscard]] Findings findings(const Scene& scene, const History& history, double opened);
 
-/// What a person must know before using the result: not quasi-static, balance drifts, damping, mass scaling.
+/// Why the run cannot be right: less than nothing is stored. Empty otherwise.
+[[nodiscard]] std::string error_of_the_model(const Scene& scene, const Findings& f);
+
+/// What a person must know before using the result: not quasi-static, balance drifts, damping, mass scaling, collapse,
+/// crushing, cracks that cost another energy than G.
 [[nodiscard]] std::vector<std::string> warnings_of(const Scene& scene, const History& history, const Findings& f);
 
 /// The main figures in a few lines.
