@@ -172,7 +172,7 @@ template <int Dim, class T, class Law>
   const auto& surface = zone.law.surface;
   const double n_end = value(n) + value(dn);
   if (surface.template contains<NS>(value(w), n_end, s_end)) return T(-1.0);
-  const T x = surface.template exit_fraction<NS>(w, n, s, dn, ds);
+  T x = surface.template exit_fraction<NS>(w, n, s, dn, ds);
   if (value(x) >= 0.0 && value(x) <= 1.0) return x;
   // Near the tip of a separated zone's surface rounding decides; what ends well outside has left at once.
   const double shear2 = squared_norm(s_end);
