@@ -45,7 +45,7 @@ void compare(std::ostream& out, const SweepRuns& sweep, Row header, const Cells&
       if (run == nullptr) continue;
       Row row = {label, side};
       for (std::string& cell : cells(*run)) row.push_back(std::move(cell));
-      row.push_back(run->finished() ? "" : run->reason());
+      row.emplace_back(run->finished() ? "" : "failed");
       rows.push_back(std::move(row));
     }
   }
@@ -70,8 +70,7 @@ void dogbone(std::ostream& out, const SweepRuns& sweep, const Gallery& gallery) 
   }
   if (!maps.empty()) {
     out << "\n"
-        << gallery.show(crack_picture("validation-dogbone", maps, 3), "validation-dogbone",
-                        "Cracked particles of the dog-bone at the end")
+        << gallery.show(crack_picture("dogbone", maps, 4), "dogbone", "Cracked particles of the dog-bone at the end")
         << "\n";
   }
 }
