@@ -17,7 +17,6 @@ using Kind = JsonValue::Kind;
 using io::check_material;
 using io::exact;
 using io::in_quotes;
-using io::load_material;
 using io::Location;
 using io::MaterialFile;
 using io::Problems;
@@ -200,22 +199,10 @@ class FileReader {
   }
 
   std::optional<MaterialFile> material_from_file(const Place& place) {
-    const std::optional<std::string> name = reader_.text(place, longest_description);
-    if (!name) return std::nullopt;
-    if (name->find('\0') != std::string::npos) {
-      reader_.problem(place, "a file name with a zero character");
-      return std::nullopt;
-    }
-    const std::filesystem::path file = origin_.parent_path() / *name;
-    const auto known = files_.find(file.string());
+    const std::string key = place.value().text;
+    const auto known = files_.find(key);
     if (known != files_.end()) return known->second;
-    std::string error;
-    std::optional<MaterialFile> material =
-        load_material(file, file.lexically_normal().string(), reader_.limits(), problems_, error);
-    if (!error.empty()) {
-      reader_.problem(place, "cannot read material file " + in_quotes(file.lexically_normal().string()) + ": " + error);
-    }
-    return files_.emplace(file.string(), std::move(material)).first->second;
+    return files_.emplace(key, io::load_named_material(reader_, place, origin_.parent_path())).first->second;
   }
 
   Options read_integrator(const Place& place, std::optional<Setting> setting) {

@@ -9,6 +9,7 @@ namespace {
 using Kind = JsonValue::Kind;
 
 constexpr std::size_t longest_name = 200;
+constexpr std::size_t longest_file_name = 4000;
 constexpr std::array<std::string_view, 4> text_keys = {"name", "source", "units", "notes"};
 constexpr std::string_view file_key = "file";
 
@@ -143,6 +144,22 @@ std::optional<MaterialFile> load_material(const std::filesystem::path& file, con
   JsonValue root;
   if (!parse_json(text, shown_as, limits, problems, root)) return std::nullopt;
   return read_material(InputReader(shown_as, limits, problems), Place(root), file.stem().string());
+}
+
+std::optional<MaterialFile> load_named_material(const InputReader& reader, const Place& place,
+                                                const std::filesystem::path& folder) {
+  const std::optional<std::string> name = reader.text(place, longest_file_name);
+  if (!name) return std::nullopt;
+  if (name->find('\0') != std::string::npos) {
+    reader.problem(place, "a file name with a zero character");
+    return std::nullopt;
+  }
+  const std::filesystem::path file = folder / *name;
+  const std::string shown = file.lexically_normal().string();
+  std::string error;
+  auto material = load_material(file, shown, reader.limits(), reader.problems(), error);
+  if (!error.empty()) reader.problem(place, "cannot read material file " + in_quotes(shown) + ": " + error);
+  return material;
 }
 
 std::vector<std::string> check_material(const MaterialFile& material, const Parameters& parameters, Setting setting,

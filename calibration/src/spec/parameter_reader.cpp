@@ -46,8 +46,8 @@ class ParameterReader {
     const JsonValue* material = root_.value().find("material");
     if (material == nullptr) return;
     const Place at(root_, *material);
-    const std::optional<io::MaterialFile> base =
-        io::material_at(c_.reader, at, [this](const Place& name) { return material_from_file(name); });
+    const std::optional<io::MaterialFile> base = io::material_at(
+        c_.reader, at, [this](const Place& name) { return io::load_named_material(c_.reader, name, folder_); });
     has_base_ = true;
     if (!base) return;
     base_name_ = base->name;
@@ -66,17 +66,6 @@ class ParameterReader {
         c_.warnings.push_back(where.file + ':' + std::to_string(where.line) + ": " + text);
       }
     }
-  }
-
-  std::optional<io::MaterialFile> material_from_file(const Place& place) {
-    const auto name = c_.reader.text(place, longest_text);
-    if (!name || name->find('\0') != std::string::npos) return std::nullopt;
-    const std::filesystem::path file = folder_ / *name;
-    const std::string shown = file.lexically_normal().string();
-    std::string error;
-    auto material = io::load_material(file, shown, c_.reader.limits(), c_.reader.problems(), error);
-    if (!error.empty()) c_.problem(place, "cannot read material file " + io::in_quotes(shown) + ": " + error);
-    return material;
   }
 
   void set(std::string_view name, double x, const io::Location& where) {

@@ -57,6 +57,11 @@ using MaterialLoader = std::function<std::optional<MaterialFile>(const Place& na
 std::vector<std::string> check_material(const MaterialFile& material, const Parameters& parameters, Setting setting,
                                         const std::optional<Location>& rve_length, Problems& problems);
 
+/// The material in the file that the string at `place` names, relative to `folder`. A name that cannot be one, and a
+/// file that cannot be read, are problems at the place.
+[[nodiscard]] std::optional<MaterialFile> load_named_material(const InputReader& reader, const Place& place,
+                                                              const std::filesystem::path& folder);
+
 /// Reads and validates a material file (keys as in data/materials). `rve_length` is left at 0. Without a key "name" the
 /// name is that of the file.
 [[nodiscard]] Parameters read_material_file(const std::filesystem::path& file, std::string* name = nullptr);
