@@ -218,6 +218,14 @@ Free fit_normal(const std::vector<Point>& points, double window, double spacing)
   return {1, Point((across - line[1] / window * along).normalized()), false};
 }
 
+/// Whether a component of the particle's velocity is prescribed.
+bool is_prescribed(const RunData<2>& run, std::size_t i) {
+  const int g = run.setup.arrangement.group[run.particles.id[i]];
+  if (g < 0) return false;
+  const auto& motion = run.setup.groups[static_cast<std::size_t>(g)].motion;
+  return std::any_of(motion.begin(), motion.end(), [](const auto& m) { return m.has_value(); });
+}
+
 /// The surface as the particles show it: those with a wide angle without a neighbour lie on it.
 std::vector<Free> estimated_surface(const RunData<2>& run, double reach) {
   const Particles<2>& p = run.particles;
@@ -269,14 +277,6 @@ std::vector<Free> estimated_surface(const RunData<2>& run, double reach) {
 }  // namespace
 
 template <int Dim>
-bool is_prescribed(const RunData<Dim>& run, std::size_t i) {
-  const int g = run.setup.arrangement.group[run.particles.id[i]];
-  if (g < 0) return false;
-  const auto& motion = run.setup.groups[static_cast<std::size_t>(g)].motion;
-  return std::any_of(motion.begin(), motion.end(), [](const auto& m) { return m.has_value(); });
-}
-
-template <int Dim>
 std::vector<FreeDirections<Dim>> find_free_directions(const RunData<Dim>& run) {
   const double spacing = run.setup.arrangement.spacing;
   const double reach = kernel_support * run.h + 0.5 * spacing;
@@ -286,12 +286,11 @@ std::vector<FreeDirections<Dim>> find_free_directions(const RunData<Dim>& run) {
   const DescribedSurface described(run, reach);
   for (std::size_t i = 0; i < all.size(); ++i) {
     described.look(start_of(run.particles, i), all[i]);
-    if (is_prescribed(run, i) || all[i].at_platen) all[i].count = 2;
+    if (all[i].at_platen) all[i].count = 2;  // particles of a group among them: they are their own platen
   }
   return all;
 }
 
-template bool is_prescribed<2>(const RunData<2>&, std::size_t);
 template std::vector<FreeDirections<2>> find_free_directions<2>(const RunData<2>&);
 
 }  // namespace fpz::sph::detail

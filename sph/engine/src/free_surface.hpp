@@ -23,8 +23,4 @@ struct FreeDirections {
 template <int Dim>
 [[nodiscard]] std::vector<FreeDirections<Dim>> find_free_directions(const RunData<Dim>& run);
 
-/// Whether a component of the particle's velocity is prescribed.
-template <int Dim>
-[[nodiscard]] bool is_prescribed(const RunData<Dim>& run, std::size_t i);
-
 }  // namespace fpz::sph::detail

@@ -91,9 +91,8 @@ void ReferenceBody<Dim>::write_row(std::size_t i) {
   Bonds<Dim>& bonds = this->bonds_;
   const std::vector<int>& list = this->lists_[i];
   const std::size_t block = i / lanes;
-  const auto first = static_cast<std::size_t>(bonds.column[block]);
-  const auto width = static_cast<std::size_t>(bonds.column[block + 1]) - first;
-  const auto entry = [&](std::size_t k) { return (first + k) * lanes + i % lanes; };
+  const auto width = static_cast<std::size_t>(bonds.column[block + 1] - bonds.column[block]);
+  const auto entry = [&](std::size_t k) { return bonds.entry(i, k); };
   Full moment = {0.0, 0.0, 0.0, 0.0};
   for (std::size_t k = 0; k < width; ++k) {
     const bool real = k < list.size();

@@ -14,16 +14,8 @@ namespace {
 /// eight nearest neighbours with the weights 4 and 1 of the isotropic Laplacian.
 constexpr double control_smoothing = 1.0;
 
-/// Inverse of a moment matrix; along a direction without bonds (which needs no gradient either) zero.
-Symmetric inverse_of(const Symmetric& a) {
-  constexpr double nothing = 1e-9;  // of the larger eigenvalue
-  const double determinant = a.xx * a.yy - a.xy * a.xy;
-  const double trace = a.xx + a.yy;
-  if (determinant > nothing * trace * trace) return {a.yy / determinant, a.xx / determinant, -a.xy / determinant};
-  // All bonds along one line: a = trace d (x) d.
-  const double inverse = trace > 0.0 ? 1.0 / (trace * trace) : 0.0;
-  return {a.xx * inverse, a.yy * inverse, a.xy * inverse};
-}
+/// A direction without bonds (moment below this part of the larger one) has no gradient, and needs none.
+constexpr double no_moment = 1e-9;
 
 }  // namespace
 
@@ -75,7 +67,7 @@ void ZeroEnergyControl<Dim>::write_row(std::size_t i) {
     moment.yy += stiffness * ry * ry;
     moment.xy += stiffness * rx * ry;
   }
-  const Symmetric inverse = inverse_of(moment);
+  const Symmetric inverse = inverse_above(moment, no_moment);
   fit_[0][i] = inverse.xx;
   fit_[1][i] = inverse.yy;
   fit_[2][i] = inverse.xy;
