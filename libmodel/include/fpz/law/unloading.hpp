@@ -2,14 +2,11 @@
 // they differ (docs/equations.md).
 //
 //   published   t = P K (u + u0 - up), u0 = K^-1 t_onset, eq 44-46: springs preloaded at onset with an energy that
-//   nobody
-//               has paid for; in compression (t_n < 0) the normal one keeps its stiffness
-//   consistent  u - up = D K^-1 t: rigid at onset, 1/K when D = 1. Stores t.D K^-1.t/2 >= 0. The growth of the
-//   compliance
-//               is reversible work: dup = flow - K^-1 t dD/2, so that t.du = d(stored) + t.flow whatever K is
+//               nobody has paid for; in compression (t_n < 0) the normal one keeps its stiffness
+//   consistent  u - up = D K^-1 t: rigid at onset, 1/K when D = 1. Stores t.D K^-1.t/2 >= 0. The growth of its
+//               compliance is reversible: dup = flow - K^-1 t dD/2, so that t.du = d(stored) + t.flow for any K
 //
-// In series with the compliance b of the bulk both are q = d + u0 - up = c(w) tau for the scaled traction tau = t/w,
-// with
+// In series with the compliance b of the bulk both are q = d + u0 - up = c(w) tau for the scaled traction tau = t/w:
 //   c(w) = fixed + w (linear + bent (1 - w)).
 #pragma once
 
