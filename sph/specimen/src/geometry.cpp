@@ -120,6 +120,13 @@ bool contains(const Body& body, const Point& x) {
                       [&](const Notch& n) { return n.width > 0.0 && contains(Polygon{corners(n)}, x); });
 }
 
+std::vector<std::pair<double, double>> chord(const Body& body, double y) {
+  Intervals inside = chord(body.shape, y);
+  for (const Shape& hole : body.holes) inside = minus(inside, chord(hole, y));
+  for (const Notch& n : body.notches) inside = minus(inside, chord(corners(n), y));
+  return inside;
+}
+
 std::pair<Point, Point> extent(const Shape& shape) {
   const auto around = [](const Point& c, double r) {
     return std::pair(Point(c[0] - r, c[1] - r), Point(c[0] + r, c[1] + r));

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "cell_areas.hpp"
 #include "scattered.hpp"
 
 namespace fpz::specimen {
@@ -15,7 +16,6 @@ constexpr double most_particles = 2e8;
 
 /// One volume for all, with the area of the body as the sum.
 void share_area(sph::Arrangement<2>& a, const Body& body) {
-  if (a.size() == 0) throw std::invalid_argument("the spacing is so large that no particle fits into the body");
   std::fill(a.volume.begin(), a.volume.end(), area(body) / static_cast<double>(a.size()));
 }
 
@@ -112,7 +112,6 @@ sph::Arrangement<2> rings(const Body& body, double spacing) {
   }
   double sum = 0.0;
   for (const double v : a.volume) sum += v;
-  if (a.size() == 0) throw std::invalid_argument("the spacing is so large that no particle fits into the body");
   const double scale = area(body) / sum;  // 1 up to rounding, unless holes or notches cut the rings
   for (double& v : a.volume) v *= scale;
   return a;
@@ -137,7 +136,14 @@ double first_hit(const Shape& shape, const Point& start, const Point& d, double 
   return -1.0;
 }
 
-sph::Arrangement<2> ordered(const Body& body, const Pattern& pattern, double spacing) {
+/// Particles whose cells are known: rings, and the squares of a lattice along the axes.
+bool is_in_order(const Pattern& pattern) {
+  if (pattern.move > 0.0 || pattern.kind == Pattern::Kind::scattered) return false;
+  return pattern.kind == Pattern::Kind::rings || pattern.angle == 0.0;
+}
+
+sph::Arrangement<2> places(const Body& body, const Pattern& pattern, double spacing) {
+  if (pattern.kind == Pattern::Kind::scattered) return detail::scatter(body, pattern.seed, spacing);
   if (pattern.kind == Pattern::Kind::rings) return rings(body, spacing);
   const auto* r = std::get_if<Rectangle>(&body.shape);
   if (pattern.fit && r != nullptr && pattern.angle == 0.0) return fitted_lattice(body, *r, spacing);
@@ -151,13 +157,10 @@ sph::Arrangement<2> place_specimen(const Body& body, const Pattern& pattern, dou
   if ((high - low).prod() / (spacing * spacing) > most_particles) {
     throw std::invalid_argument("the spacing is so small that there would be more than 2e8 particles");
   }
-  if (pattern.kind == Pattern::Kind::scattered) {
-    sph::Arrangement<2> a = detail::scatter(body, pattern.seed, spacing);
-    share_area(a, body);
-    return a;
-  }
-  sph::Arrangement<2> a = ordered(body, pattern, spacing);
+  sph::Arrangement<2> a = places(body, pattern, spacing);
+  if (a.size() == 0) throw std::invalid_argument("the spacing is so large that no particle fits into the body");
   if (pattern.move > 0.0) detail::move_at_random(a, body, pattern.move * spacing, pattern.seed);
+  if (!is_in_order(pattern)) a.volume = detail::cell_areas(body, a.position, spacing);
   return a;
 }
 

@@ -176,7 +176,7 @@ sph::Arrangement<2> scatter(const Body& body, std::uint64_t seed, double spacing
   for (int n = 0; n < sweeps; ++n) sweep(x, diameter, walls, spacing);
   sph::Arrangement<2> a;
   a.spacing = spacing;
-  for (const Point& place : x) a.add(place, 1.0);
+  for (const Point& place : x) a.add(place, spacing * spacing);
   return a;
 }
 

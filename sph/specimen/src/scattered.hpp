@@ -9,7 +9,7 @@
 namespace fpz::specimen::detail {
 
 /// Positions that are even but have no directions: round(area / spacing^2) particles, none nearer than half a spacing
-/// to the surface or to a notch of width 0. Volumes are 1. The same seed gives the same bits. Throws
+/// to the surface or to a notch of width 0. Volumes are spacing^2. The same seed gives the same bits. Throws
 /// std::invalid_argument when the body is too thin for them.
 [[nodiscard]] sph::Arrangement<2> scatter(const Body& body, std::uint64_t seed, double spacing);
 

@@ -51,6 +51,9 @@ struct Body {
 /// In the shape, and in no hole and no slot.
 [[nodiscard]] bool contains(const Body& body, const Point& x);
 
+/// Where the horizontal line at height y is inside the body: begin and end of its pieces, disjoint, ascending.
+[[nodiscard]] std::vector<std::pair<double, double>> chord(const Body& body, double y);
+
 /// Lowest and highest coordinates.
 [[nodiscard]] std::pair<Point, Point> extent(const Shape& shape);
 

@@ -27,9 +27,11 @@ struct Pattern {
   std::uint64_t seed = 1;  ///< of `scattered` and of `move`; the same seed gives the same bits
 };
 
-/// Particles of the specimen. All have one volume (rings: one per ring), such that the sum is the area of the body
-/// exactly. `spacing` is the wanted distance. Throws std::invalid_argument when the pattern does not suit the shape,
-/// or not all or none of the particles fit.
+/// Particles of the specimen. The volume of each is the area of its cell, the part of the body that is nearest to it; a
+/// lattice along the axes has one volume for all, rings one per ring. Their sum is the area of the body. (Volumes that
+/// do not follow the density of the particles would bend the vectors of the bonds over long ways.) `spacing` is the
+/// wanted distance. Throws std::invalid_argument when the pattern does not suit the shape, or not all or none of the
+/// particles fit.
 [[nodiscard]] sph::Arrangement<2> place_specimen(const Body& body, const Pattern& pattern, double spacing);
 
 /// A roller or platen: columns of particles on the surface.
