@@ -25,9 +25,14 @@ struct Engine {
   /// sum m v(n-1/2).v(n+1/2)/2, J.
   [[nodiscard]] double kinetic() const;
 
+  /// Accelerations and stresses of the elastic body that was displaced from rest by the velocities times one second.
+  /// Leaves the state unusable, the velocities included.
+  void accelerate_from_rest();
   /// Largest angular frequency of the elastic body of the reference configuration with its prescribed components held,
   /// 1/s. Leaves the state unusable.
   [[nodiscard]] double largest_frequency();
+  /// Longest stable time step of that body, s. Leaves the state as it was.
+  [[nodiscard]] double stability_limit();
 
   /// The state that changes during a run; load() after save() continues bit for bit.
   void save(Writer& archive) const;

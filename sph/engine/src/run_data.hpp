@@ -45,6 +45,8 @@ struct RunData {
   RunData(const RunData&) = delete;
   RunData& operator=(const RunData&) = delete;
 
+  /// s; before the first step.
+  void set_time_step(double step) { dt = view.step = step; }
   [[nodiscard]] double now() const { return static_cast<double>(steps) * dt; }
 
   template <class Self, class Visit>

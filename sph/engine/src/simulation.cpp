@@ -24,12 +24,18 @@ double time_step(const RunSetup<Dim>& s) {
 
 namespace {
 
+/// The engine of a run; its bonds serve the stability limit too where that is measured on the same ones.
+
 template <int Dim>
 std::unique_ptr<detail::Engine<Dim>> make_engine(const RunSetup<Dim>& setup) {
   std::string text;
   for (const std::string& problem : problems(setup)) text += (text.empty() ? "" : "\n") + problem;
   if (!text.empty()) throw std::invalid_argument(text);
-  return std::make_unique<detail::Engine<Dim>>(setup, time_step(setup));
+  auto engine = std::make_unique<detail::Engine<Dim>>(setup, 1.0);
+  const double limit =
+      setup.options.configuration == Configuration::reference ? engine->stability_limit() : stability_limit(setup);
+  engine->run.set_time_step(std::min(courant_step(setup), stability_margin * limit));
+  return engine;
 }
 
 }  // namespace

@@ -7,10 +7,28 @@
 
 #include "chunks.hpp"
 #include "engine.hpp"
+#include "fpz/sph/archive.hpp"
 
 namespace fpz::sph {
 
 namespace detail {
+
+template <int Dim>
+void Engine<Dim>::accelerate_from_rest() {
+  Particles<Dim>& p = run.particles;
+  View<Dim> v = run.view;
+  v.step = 1.0;
+  v.damped = false;
+  for (std::size_t c = 0; c < run.dimensions; ++c) v.gravity[c] = 0.0;
+  for (Field& g : p.gradient) std::fill(g.begin(), g.end(), 0.0);
+  run.for_chunks([&](Index first, Index last) { run.passes->gradient_reference(v, first, last); });
+  if (control) {
+    control->forget_displacements();
+    control->advance(1.0);
+    control->act();
+  }
+  run.for_chunks([&](Index first, Index last) { run.passes->force_reference(v, first, last); });
+}
 
 template <int Dim>
 double Engine<Dim>::largest_frequency() {
@@ -24,22 +42,11 @@ double Engine<Dim>::largest_frequency() {
   for (Field& u : p.velocity) {
     for (std::size_t i = 0; i < p.count; ++i) u[i] = amplitude * uniform(rng);
   }
-  View<Dim> v = run.view;
-  v.step = 1.0;
-  v.damped = false;
-  for (std::size_t c = 0; c < run.dimensions; ++c) v.gravity[c] = 0.0;
   double square = 0.0;
   for (int k = 0; k < iterations; ++k) {
     for (const auto& boundary : boundaries) boundary->hold();
     const Fields<Dim> before = p.velocity;
-    for (Field& g : p.gradient) std::fill(g.begin(), g.end(), 0.0);
-    run.for_chunks([&](Index first, Index last) { run.passes->gradient_reference(v, first, last); });
-    if (control) {
-      control->forget_displacements();
-      control->advance(1.0);
-      control->act();
-    }
-    run.for_chunks([&](Index first, Index last) { run.passes->force_reference(v, first, last); });
+    accelerate_from_rest();
     double kinetic_norm = 0.0;
     double elastic_norm = 0.0;
     double largest = 0.0;
@@ -61,20 +68,36 @@ double Engine<Dim>::largest_frequency() {
   return std::sqrt(std::max(square, 0.0));
 }
 
+template <int Dim>
+double Engine<Dim>::stability_limit() {
+  constexpr std::uint64_t own = 0;  // the bytes are for no one else
+  Writer before(own);
+  save(before);
+  const std::vector<unsigned char> state = std::move(before).sealed();
+  double limit = 2.0 / largest_frequency();
+  for (const auto& boundary : boundaries) limit = std::min(limit, boundary->stable_step());
+  Reader back(state, own);
+  load(back);
+  return limit;
+}
+
+template void Engine<2>::accelerate_from_rest();
 template double Engine<2>::largest_frequency();
+template double Engine<2>::stability_limit();
 
 }  // namespace detail
 
 template <int Dim>
 double stability_limit(const RunSetup<Dim>& setup) {
-  RunSetup<Dim> elastic = setup;
-  elastic.options.configuration = Configuration::reference;  // the same operator while nothing has moved
-  if (setup.options.configuration != Configuration::reference) elastic.options.zero_energy_control = 0.0;
+  if (setup.options.configuration == Configuration::reference) {
+    return detail::Engine<Dim>(setup, 1.0).stability_limit();
+  }
+  RunSetup<Dim> elastic = setup;  // the same operator while nothing has moved
+  elastic.options.configuration = Configuration::reference;
+  elastic.options.gradient = Gradient::kernel;
+  elastic.options.zero_energy_control = 0.0;
   elastic.velocity.clear();
-  detail::Engine<Dim> engine(elastic, 1.0);
-  double limit = 2.0 / engine.largest_frequency();
-  for (const auto& boundary : engine.boundaries) limit = std::min(limit, boundary->stable_step());
-  return limit;
+  return detail::Engine<Dim>(elastic, 1.0).stability_limit();
 }
 
 template double stability_limit<2>(const RunSetup<2>&);

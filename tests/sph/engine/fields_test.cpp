@@ -117,6 +117,24 @@ TEST_P(Fields, AreAllThereAfterARestore) {
   EXPECT_EQ(saved(continued), saved(whole));
 }
 
+TEST_P(Fields, AnEngineHasTheTimeStepOfItsSetup) {
+  const RunSetup<2> s = setup();
+  EXPECT_EQ(Simulation<2>(s).time_step(), time_step(s));
+}
+
+/// It is measured on the body of the run itself.
+TEST(StabilityLimit, LeavesTheStateAsItWas) {
+  for (const Variant& v : variants) {
+    if (v.configuration != Configuration::reference) continue;
+    const RunSetup<2> s = torn(v);
+    Engine<2> e(s, time_step(s));
+    advance(e, 150);
+    const std::vector<unsigned char> before = saved(e);
+    EXPECT_GT(e.stability_limit(), 0.0);
+    EXPECT_EQ(saved(e), before);
+  }
+}
+
 /// Every field that the loops see has its memory, and padding has what is harmless.
 TEST_P(Fields, AreAllocatedAndPointedTo) {
   RunSetup<2> s = setup();
