@@ -1,6 +1,5 @@
 #include "bond_vectors.hpp"
 
-#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -12,11 +11,10 @@ namespace fpz::sph::detail {
 
 namespace {
 
-constexpr int unknowns = 6;  // multipliers per particle: four of the moment, two of the balance
 using Vec2 = Vec<double, 2>;
-using Row = Eigen::Matrix<double, unknowns, 1>;
-using Block = Eigen::Matrix<double, unknowns, unknowns>;
-using Directions = Eigen::Matrix<double, 2, unknowns>;
+using Row = Eigen::Matrix<double, multipliers, 1>;
+using Block = Eigen::Matrix<double, multipliers, multipliers>;
+using Directions = Eigen::Matrix<double, 2, multipliers>;
 using Values = Eigen::VectorXd;
 
 /// Lengths in units of h.
@@ -51,8 +49,12 @@ class VectorProblem {
     make_constraints();
   }
 
-  void solve();
+  void solve(const NeighbourLists& lists);
   [[nodiscard]] BondVectors<2> vectors(const NeighbourLists& lists) const;
+  /// Normal equations of the multipliers.
+  [[nodiscard]] BlockMatrix<multipliers> matrix() const;
+  /// What the sums over the vectors lack.
+  [[nodiscard]] Values lacking() const;
 
  private:
   [[nodiscard]] std::size_t count() const { return run_.particles.count; }
@@ -60,9 +62,6 @@ class VectorProblem {
   void make_constraints();
   /// Moments of the kernel's vectors, over the volumes.
   [[nodiscard]] std::vector<Symmetric> moments() const;
-  /// What the sums over the vectors lack.
-  [[nodiscard]] Values lacking() const;
-  [[nodiscard]] Eigen::SparseMatrix<double> matrix() const;
   /// seen_from() one of the ends, what is imposed there only.
   [[nodiscard]] Directions imposed_on(const Bond& b, int end) const {
     return seen_from(b, end == b.i ? 1.0 : -1.0) * particles_[static_cast<std::size_t>(end)].imposed;
@@ -111,7 +110,7 @@ bool is_poor(const Symmetric& moment) {
 }
 
 void VectorProblem::make_constraints() {
-  constexpr double hard = 1e-10;  // of the diagonal
+  constexpr double hard = 1e-13;  // of the diagonal; more would hold back smooth multipliers
   particles_.resize(count());
   const std::vector<FreeDirections<2>> free = find_free_directions(run_);
   const std::vector<Symmetric> moment = moments();
@@ -144,64 +143,58 @@ void VectorProblem::make_constraints() {
 }
 
 Values VectorProblem::lacking() const {
-  Values rest(static_cast<Eigen::Index>(unknowns * count()));
+  Values rest(static_cast<Eigen::Index>(multipliers * count()));
   for (std::size_t i = 0; i < count(); ++i) {
-    rest.segment<unknowns>(static_cast<Eigen::Index>(unknowns * i)) = particles_[i].target;
+    rest.segment<multipliers>(static_cast<Eigen::Index>(multipliers * i)) = particles_[i].target;
   }
   for (const Bond& b : bonds_) {
-    rest.segment<unknowns>(unknowns * b.i) -= seen_from(b, 1.0).transpose() * b.w;
-    rest.segment<unknowns>(unknowns * b.j) -= seen_from(b, -1.0).transpose() * b.w;
+    rest.segment<multipliers>(multipliers * b.i) -= seen_from(b, 1.0).transpose() * b.w;
+    rest.segment<multipliers>(multipliers * b.j) -= seen_from(b, -1.0).transpose() * b.w;
   }
   for (std::size_t i = 0; i < count(); ++i) {
-    const auto at = static_cast<Eigen::Index>(unknowns * i);
-    const Row all = rest.segment<unknowns>(at);
-    rest.segment<unknowns>(at) = particles_[i].imposed * all;
+    const auto at = static_cast<Eigen::Index>(multipliers * i);
+    const Row all = rest.segment<multipliers>(at);
+    rest.segment<multipliers>(at) = particles_[i].imposed * all;
   }
   return rest;
 }
 
-/// Lower triangle.
-Eigen::SparseMatrix<double> VectorProblem::matrix() const {
-  std::vector<Block> diagonal(count());
-  for (std::size_t i = 0; i < count(); ++i) diagonal[i] = particles_[i].soft;
-  std::vector<Eigen::Triplet<double>> entries;
-  const auto add = [&entries](int row, int column, const Block& block) {
-    for (int c = 0; c < unknowns; ++c) {
-      for (int r = row == column ? c : 0; r < unknowns; ++r) {
-        if (block(r, c) != 0.0) entries.emplace_back(unknowns * row + r, unknowns * column + c, block(r, c));
-      }
-    }
-  };
+BlockMatrix<multipliers> VectorProblem::matrix() const {
+  BlockMatrix<multipliers> m;
+  m.row.resize(count());
+  for (const Particle& p : particles_) m.diagonal.push_back(p.soft);
   for (const Bond& b : bonds_) {
     const Directions near = imposed_on(b, b.i), far = imposed_on(b, b.j);
-    diagonal[static_cast<std::size_t>(b.i)] += b.metric * near.transpose() * near;
-    diagonal[static_cast<std::size_t>(b.j)] += b.metric * far.transpose() * far;
-    add(b.j, b.i, b.metric * far.transpose() * near);
+    m.diagonal[static_cast<std::size_t>(b.i)] += b.metric * near.transpose() * near;
+    m.diagonal[static_cast<std::size_t>(b.j)] += b.metric * far.transpose() * far;
+    m.row[static_cast<std::size_t>(b.j)].push_back({b.i, b.metric * far.transpose() * near});
   }
-  for (std::size_t i = 0; i < count(); ++i) add(static_cast<int>(i), static_cast<int>(i), diagonal[i]);
-  const auto size = static_cast<Eigen::Index>(unknowns * count());
-  Eigen::SparseMatrix<double> m(size, size);
-  m.setFromTriplets(entries.begin(), entries.end());
   return m;
 }
 
 /// Normal equations of the multipliers: (A metric A^T + soft) multipliers = target - A w, A what is imposed. Smooth
 /// multipliers hardly change the vectors, so that the equations are ill conditioned; the vectors are not, and the
-/// passes after the first take the rest from the vectors themselves.
-void VectorProblem::solve() {
-  constexpr int passes = 4;
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors(matrix());
-  if (factors.info() != Eigen::Success) {
+/// passes after the first take the rest from the vectors themselves, until it no longer shrinks.
+void VectorProblem::solve(const NeighbourLists& lists) {
+  constexpr int most_passes = 30;
+  constexpr double enough = 1e-14;  // of what the kernel's vectors lack
+  const BlockCholesky<multipliers> factors(matrix(), dissection_order<2>(run_.particles.start, lists));
+  if (!factors.ok()) {
     throw std::runtime_error(
         "the vectors of the bonds have no solution; particles may coincide (\"gradient\": "
         "\"kernel\" runs without them)");
   }
-  for (int k = 0; k < passes; ++k) {
-    const Values change = factors.solve(lacking());
+  Values rest = lacking();
+  const double first = rest.norm();
+  double last = HUGE_VAL;
+  for (int k = 0; k < most_passes && rest.norm() > enough * first && rest.norm() < 0.5 * last; ++k) {
+    last = rest.norm();
+    const Values change = factors.solve(rest);
     for (Bond& b : bonds_) {
-      b.w += b.metric * (imposed_on(b, b.i) * change.segment<unknowns>(unknowns * b.i) +
-                         imposed_on(b, b.j) * change.segment<unknowns>(unknowns * b.j));
+      b.w += b.metric * (imposed_on(b, b.i) * change.segment<multipliers>(multipliers * b.i) +
+                         imposed_on(b, b.j) * change.segment<multipliers>(multipliers * b.j));
     }
+    rest = lacking();
   }
 }
 
@@ -223,10 +216,15 @@ const Vec<double, Dim>& BondVectors<Dim>::operator()(std::size_t i, int j) const
   return vector[i][static_cast<std::size_t>(place)];
 }
 
+NormalEquations normal_equations(const RunData<2>& run, const NeighbourLists& lists) {
+  const VectorProblem problem(run, lists);
+  return {problem.matrix(), problem.lacking()};
+}
+
 template <int Dim>
 BondVectors<Dim> make_bond_vectors(const RunData<Dim>& run, const NeighbourLists& lists) {
   VectorProblem problem(run, lists);
-  problem.solve();
+  problem.solve(lists);
   return problem.vectors(lists);
 }
 

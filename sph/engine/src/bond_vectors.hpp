@@ -19,6 +19,7 @@
 
 #include <vector>
 
+#include "block_cholesky.hpp"
 #include "bonds.hpp"
 #include "run_data.hpp"
 
@@ -35,5 +36,15 @@ struct BondVectors {
 /// The vectors of these bonds. Deterministic, one thread. Throws std::runtime_error when the system cannot be solved.
 template <int Dim>
 [[nodiscard]] BondVectors<Dim> make_bond_vectors(const RunData<Dim>& run, const NeighbourLists& lists);
+
+/// Multipliers per particle: four of the moment, two of the balance.
+inline constexpr int multipliers = 6;
+
+/// The first of the equations that make_bond_vectors() solves, for those who compare solvers.
+struct NormalEquations {
+  BlockMatrix<multipliers> matrix;
+  Eigen::VectorXd right;
+};
+[[nodiscard]] NormalEquations normal_equations(const RunData<2>& run, const NeighbourLists& lists);
 
 }  // namespace fpz::sph::detail

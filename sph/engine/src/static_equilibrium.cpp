@@ -39,9 +39,7 @@ struct StaticBody<Dim>::Forces {
 
   [[nodiscard]] Eigen::Index count() const { return static_cast<Eigen::Index>(engine.run.particles.count); }
   [[nodiscard]] Eigen::Index size() const { return Dim * count(); }
-  [[nodiscard]] Eigen::Index slot(std::size_t id) const {
-    return static_cast<Eigen::Index>(engine.run.slot_of[id]);
-  }
+  [[nodiscard]] Eigen::Index slot(std::size_t id) const { return static_cast<Eigen::Index>(engine.run.slot_of[id]); }
 
   [[nodiscard]] Values operator()(const Values& displacement) {
     constexpr double strain = 1e-12;  // so small that squares of rotations are below rounding
@@ -78,8 +76,7 @@ struct StaticBody<Dim>::Forces {
   [[nodiscard]] Values gather(const Fields<Dim>& fields) const {
     Values all(size());
     for (int c = 0; c < Dim; ++c) {
-      all.segment(c * count(), count()) =
-          Eigen::Map<const Values>(fields[static_cast<std::size_t>(c)].data(), count());
+      all.segment(c * count(), count()) = Eigen::Map<const Values>(fields[static_cast<std::size_t>(c)].data(), count());
     }
     return all;
   }

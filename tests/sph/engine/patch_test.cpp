@@ -66,8 +66,8 @@ Forces forces_in_tension(double moved, Gradient gradient) {
 TEST(Patch, ConstantStressIsInEquilibrium) {
   for (const double moved : {0.0, 0.1, 0.2, 0.3}) {
     const Forces f = forces_in_tension(moved, Gradient::consistent);
-    EXPECT_LT(f.inside, 1e-8) << moved;
-    EXPECT_LT(f.surface, 1e-8) << moved;
+    EXPECT_LT(f.inside, 1e-11) << moved;
+    EXPECT_LT(f.surface, 1e-11) << moved;
     if (moved > 0.0) {
       const Forces kernel = forces_in_tension(moved, Gradient::kernel);
       EXPECT_GT(kernel.inside, 1e-2) << moved;
