@@ -24,6 +24,15 @@ double slope(const std::vector<double>& way, const std::vector<double>& load) {
   return n >= 2.0 ? (n * xy - x * y) / (n * xx - x * x) : std::nan("");
 }
 
+/// Work of a load along a way up to `end`, J.
+double work_until(double end, const std::vector<double>& way, const std::vector<double>& load) {
+  double work = 0.0;
+  for (std::size_t k = 1; k < load.size() && way[k - 1] < end; ++k) {
+    work += 0.5 * (load[k] + load[k - 1]) * (std::min(way[k], end) - way[k - 1]);
+  }
+  return work;
+}
+
 /// Of the material only these act in pure mode I on a crack without width.
 constexpr const char* acting[] = {"young_modulus", "poisson_ratio", "tensile_strength", "delta0", "normal_stiffness"};
 
@@ -85,8 +94,16 @@ double notch_stiffness(const Run& run) {
 
 BeamErrors beam_errors(const Run& run) {
   const Reference fe = beam_reference(run, roller_width(run));
-  return {run.figure("peak_load") / fe.peak - 1.0, run.figure("stiffness") / fe.stiffness - 1.0,
-          notch_stiffness(run) / fe.notch_stiffness - 1.0, run.figure("fracture_energy_ratio") - 1.0};
+  const io::Table t = run.history();
+  const std::vector<double>&way = t.at("deflection"), &load = t.at("load");
+  const double end = std::min(*std::max_element(way.begin(), way.end()), fe.curve.deflection_mid_depth.back());
+  BeamErrors e;
+  e.peak = run.figure("peak_load") / fe.peak - 1.0;
+  e.stiffness = run.figure("stiffness") / fe.stiffness - 1.0;
+  e.notch_stiffness = notch_stiffness(run) / fe.notch_stiffness - 1.0;
+  e.work = work_until(end, way, load) / work_until(end, fe.curve.deflection_mid_depth, fe.curve.load) - 1.0;
+  e.energy = run.figure("fracture_energy_ratio") - 1.0;
+  return e;
 }
 
 }  // namespace fpz::report

@@ -43,6 +43,9 @@ class Body {
   /// Stores what the force sums for a particle with this stress.
   virtual void set_flux(std::size_t i, const Symmetric& stress) = 0;
 
+  /// Gives a particle that snaps back a shorter H, if it can.
+  virtual bool shorten_band(std::size_t) { return false; }
+
   /// Runs loops(first, last) and then the library on what they flagged, chunk by chunk; the first failure in the order
   /// of the particles.
   template <class F>

@@ -55,6 +55,7 @@ Outcome Body<Dim>::update_particle(std::size_t i) {
     set_rve_length(m, p.length[i]);
     report = update<Dim>(m, run_.update_options, begin, increment, point);
   }
+  if (report.status == Status::snap_back && shorten_band(i)) return update_particle(i);
   if (!report.ok()) return {Failure::constitutive, report.status, p.id[i], run_.now(), 0.0};
   turn(i, point);
   if (point.cracked) {

@@ -170,7 +170,8 @@ void force_reference(const V& v, Index first, Index last) {
   }
 }
 
-/// Displacement gradient that fits the bonds of the zero-energy control best: what it leaves alone.
+/// Displacement gradient that fits the bonds of the zero-energy control best, what it leaves alone; times the part of
+/// its energy that the particle has left.
 void gradient_zero_energy(const V& v, Index first, Index last) {
   const double *x = v.zero_energy_displacement[0], *y = v.zero_energy_displacement[1];
   for (Index b = first; b < last; ++b) {
@@ -192,7 +193,9 @@ void gradient_zero_energy(const V& v, Index first, Index last) {
     }
     FPZ_LANES {
       const Index i = o + l;
-      const Symmetric f = {v.zero_energy_fit[0][i], v.zero_energy_fit[1][i], v.zero_energy_fit[2][i]};
+      const double left = v.zero_energy_share[i];
+      const Symmetric f = {left * v.zero_energy_fit[0][i], left * v.zero_energy_fit[1][i],
+                           left * v.zero_energy_fit[2][i]};
       v.zero_energy_gradient[0][i] = xx[l] * f.xx + xy[l] * f.xy;
       v.zero_energy_gradient[1][i] = xx[l] * f.xy + xy[l] * f.yy;
       v.zero_energy_gradient[2][i] = yx[l] * f.xx + yy[l] * f.xy;
@@ -201,13 +204,14 @@ void gradient_zero_energy(const V& v, Index first, Index last) {
   }
 }
 
-/// Opposes the relative displacements that the mean of the two gradients does not explain: the derivative of
-/// 1/4 sum k_ij |u_j - u_i - G_i r_ij|^2 over all i and j, in which the gradients need no derivative because they
-/// minimise it.
+/// Opposes the relative displacements that the gradients of the two ends do not explain: the derivative of
+/// 1/4 sum a_i k_ij |u_j - u_i - G_i r_ij|^2 over all i and j, a_i being what is left of particle i's energy. The
+/// gradients need no derivative because they minimise it.
 void force_zero_energy(const V& v, Index first, Index last) {
   const double *x = v.zero_energy_displacement[0], *y = v.zero_energy_displacement[1];
   const double *gxx = v.zero_energy_gradient[0], *gxy = v.zero_energy_gradient[1];
   const double *gyx = v.zero_energy_gradient[2], *gyy = v.zero_energy_gradient[3];
+  const double* left = v.zero_energy_share;
   for (Index b = first; b < last; ++b) {
     const Index o = b * n;
     double fx[n] = {}, fy[n] = {};
@@ -221,8 +225,9 @@ void force_zero_energy(const V& v, Index first, Index last) {
         const Index i = o + l;
         const double ux = x[j[l]] - x[i];
         const double uy = y[j[l]] - y[i];
-        fx[l] += stiffness[l] * ux - 0.5 * ((gxx[i] + gxx[j[l]]) * wx[l] + (gxy[i] + gxy[j[l]]) * wy[l]);
-        fy[l] += stiffness[l] * uy - 0.5 * ((gyx[i] + gyx[j[l]]) * wx[l] + (gyy[i] + gyy[j[l]]) * wy[l]);
+        const double held = 0.5 * (left[i] + left[j[l]]) * stiffness[l];
+        fx[l] += held * ux - 0.5 * ((gxx[i] + gxx[j[l]]) * wx[l] + (gxy[i] + gxy[j[l]]) * wy[l]);
+        fy[l] += held * uy - 0.5 * ((gyx[i] + gyx[j[l]]) * wx[l] + (gyy[i] + gyy[j[l]]) * wy[l]);
       }
     }
     FPZ_LANES {

@@ -8,8 +8,10 @@
 namespace fpz::sph::detail {
 
 namespace {
-constexpr long long release_interval = 16;  // steps between searches for open bonds: openings grow slowly
-}
+// Openings grow slowly; steps between searches for open bonds, and between changes of H:
+constexpr long long release_interval = 16;
+constexpr long long band_interval = 4;
+}  // namespace
 
 template <int Dim>
 ReferenceBody<Dim>::ReferenceBody(RunData<Dim>& run) : Body<Dim>(run) {
@@ -24,6 +26,7 @@ ReferenceBody<Dim>::ReferenceBody(RunData<Dim>& run) : Body<Dim>(run) {
   }
   for (std::size_t i = 0; i < p.count; ++i) write_row(i);
   this->point_bonds();
+  if (o.rve_length.rule == RveLength::Rule::band) bands_.emplace(run);
 }
 
 template <int Dim>
@@ -33,6 +36,7 @@ Outcome ReferenceBody<Dim>::advance() {
     run.passes->drift(run.view, first, last);
     run.passes->gradient_reference(run.view, first, last);
   });
+  if (bands_ && run.steps % band_interval == 0) bands_->follow();
   if (run.setup.options.release_integrity > 0.0 && run.steps % release_interval == 0) release_bonds();
   return outcome;
 }
@@ -45,10 +49,10 @@ void ReferenceBody<Dim>::force(const View<Dim>& view) {
 
 template <int Dim>
 Tensor<double, Dim> ReferenceBody<Dim>::strain_increment(std::size_t i, const State<double, Dim>& begin) const {
-  Tensor<double, Dim> increment;
+  Tensor<double, Dim> increment = bands_ ? bands_->shift(i) : Tensor<double, Dim>(Tensor<double, Dim>::Zero());
   for (std::size_t k = 0; k < this->run_.components; ++k) {
     const auto c = static_cast<int>(k);
-    increment[c] = this->run_.particles.strain[k][i] - begin.strain[c];
+    increment[c] += this->run_.particles.strain[k][i] - begin.strain[c];
   }
   return increment;
 }
@@ -173,8 +177,15 @@ void ReferenceBody<Dim>::release_bonds() {
 }
 
 template <int Dim>
+void ReferenceBody<Dim>::save(Writer& archive) const {
+  this->transfer_lists(archive, *this);
+  if (bands_) CrackBands<Dim>::transfer(archive, *bands_);
+}
+
+template <int Dim>
 void ReferenceBody<Dim>::load(Reader& archive) {
   this->transfer_lists(archive, *this);
+  if (bands_) CrackBands<Dim>::transfer(archive, *bands_);
   // Rows keep their place; only what was cut since the start differs.
   for (std::size_t i = 0; i < this->run_.particles.count; ++i) write_row(i);
   this->point_bonds();

@@ -6,6 +6,7 @@
 
 #include "body.hpp"
 #include "bond_vectors.hpp"
+#include "crack_bands.hpp"
 
 namespace fpz::sph::detail {
 
@@ -16,7 +17,7 @@ class ReferenceBody final : public Body<Dim> {
 
   [[nodiscard]] Outcome advance() override;
   void force(const View<Dim>& view) override;
-  void save(Writer& archive) const override { this->transfer_lists(archive, *this); }
+  void save(Writer& archive) const override;
   void load(Reader& archive) override;
 
  protected:
@@ -24,6 +25,7 @@ class ReferenceBody final : public Body<Dim> {
   [[nodiscard]] Tensor<double, Dim> strain_increment(std::size_t i, const State<double, Dim>& begin) const override;
   void turn(std::size_t, State<double, Dim>&) const override {}
   void set_flux(std::size_t i, const Symmetric& stress) override;
+  bool shorten_band(std::size_t i) override { return bands_ && bands_->shorten(i); }
 
  private:
   /// Weights and correction of one row from its list.
@@ -38,6 +40,7 @@ class ReferenceBody final : public Body<Dim> {
   [[nodiscard]] std::vector<int> released_by(std::size_t i) const;
 
   std::optional<BondVectors<Dim>> vectors_;  ///< none: those of the kernel
+  std::optional<CrackBands<Dim>> bands_;     ///< none: H is a number or the size
 };
 
 }  // namespace fpz::sph::detail

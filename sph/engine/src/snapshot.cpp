@@ -10,7 +10,7 @@ namespace fpz::sph {
 
 namespace {
 
-constexpr std::uint64_t magic = 0x344850535a5046ULL;  // "FPZSPH4"; the last figure is the version
+constexpr std::uint64_t magic = 0x354850535a5046ULL;  // "FPZSPH5"; the last figure is the version
 
 /// Adds the options on which the result depends.
 struct OptionPrint {

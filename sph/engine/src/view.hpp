@@ -41,6 +41,7 @@ struct View {
   const double* zero_energy_stiffness = nullptr;  // k_ij, N/m
   const double* zero_energy_weight[d] = {};       // k_ij r_ij, N
   const double* zero_energy_fit[tensor] = {};     // inverse of sum k_ij r_ij (x) r_ij
+  const double* zero_energy_share = nullptr;      // part of its energy that a particle has left
   double* zero_energy_displacement[d] = {};
   double* zero_energy_gradient[d * d] = {};
   double* zero_energy_force[d] = {};

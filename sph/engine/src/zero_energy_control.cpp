@@ -29,21 +29,13 @@ ZeroEnergyControl<Dim>::ZeroEnergyControl(RunData<Dim>& run, double strength)
   stiffness_.assign(bonds_.entries(), 0.0);
   fields(*this, Allocate{p.padded()});
   fields(*this, Point<Dim>{run.view});
-  connect();
-  run.view.controlled = true;
-}
-
-template <int Dim>
-void ZeroEnergyControl<Dim>::connect() {
-  const Particles<Dim>& p = run_.particles;
-  ended_.assign(p.count, 0);
-  for (std::size_t i = 0; i < p.count; ++i) ended_[i] = p.kind[i] == kind::cracked;
   for (std::size_t i = 0; i < p.count; ++i) write_row(i);
-  View<Dim>& v = run_.view;
+  View<Dim>& v = run.view;
   v.zero_energy_column = bonds_.column.data();
   v.zero_energy_neighbour = bonds_.neighbour.data();
   v.zero_energy_stiffness = stiffness_.data();
-  for (std::size_t c = 0; c < run_.dimensions; ++c) v.zero_energy_weight[c] = bonds_.weight[c].data();
+  for (std::size_t c = 0; c < run.dimensions; ++c) v.zero_energy_weight[c] = bonds_.weight[c].data();
+  v.controlled = true;
 }
 
 template <int Dim>
@@ -57,8 +49,7 @@ void ZeroEnergyControl<Dim>::write_row(std::size_t i) {
     const double rx = p.start[0][j] - p.start[0][i];
     const double ry = p.start[1][j] - p.start[1][i];
     const double q = std::sqrt(rx * rx + ry * ry) / h;
-    const bool ended = ended_[i] != 0 || ended_[j] != 0;
-    const double stiffness = ended ? 0.0 : norm * (p.volume[i] * p.volume[j]) * kernel_slope(Kernel::cubic_spline, q);
+    const double stiffness = norm * (p.volume[i] * p.volume[j]) * kernel_slope(Kernel::cubic_spline, q);
     const std::size_t entry = bonds_.entry(i, k);
     stiffness_[entry] = stiffness;
     bonds_.weight[0][entry] = stiffness * rx;
@@ -74,18 +65,21 @@ void ZeroEnergyControl<Dim>::write_row(std::size_t i) {
 }
 
 template <int Dim>
-std::vector<std::size_t> ZeroEnergyControl<Dim>::note_new_cracks() {
+double ZeroEnergyControl<Dim>::share_of(std::size_t i) const {
   const Particles<Dim>& p = run_.particles;
-  std::vector<std::size_t> touched;
+  const Parameters& m = run_.setup.parameters;
+  const double most = p.length[i] * m.tensile_strength / m.young_modulus;
+  return std::max(0.0, 1.0 - damage(p.point[i].crack) * m.delta0 / most);
+}
+
+template <int Dim>
+std::vector<std::size_t> ZeroEnergyControl<Dim>::opened_further() const {
+  const Particles<Dim>& p = run_.particles;
+  std::vector<std::size_t> list;
   for (std::size_t i = 0; i < p.count; ++i) {
-    if (p.kind[i] != kind::cracked || ended_[i] != 0) continue;
-    ended_[i] = 1;
-    touched.push_back(i);
-    for (const int j : lists_[i]) touched.push_back(static_cast<std::size_t>(j));
+    if (p.kind[i] == kind::cracked && share_[i] > 0.0 && share_of(i) < share_[i]) list.push_back(i);
   }
-  std::sort(touched.begin(), touched.end());
-  touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
-  return touched;
+  return list;
 }
 
 template <int Dim>
@@ -102,8 +96,8 @@ void ZeroEnergyControl<Dim>::move(double step) {
 
 template <int Dim>
 void ZeroEnergyControl<Dim>::advance(double step) {
-  const std::vector<std::size_t> touched = note_new_cracks();
-  if (touched.empty()) {
+  const std::vector<std::size_t> opened = opened_further();
+  if (opened.empty()) {
     move(step);
     return;
   }
@@ -111,9 +105,11 @@ void ZeroEnergyControl<Dim>::advance(double step) {
   // of the middle is what is lost.
   move(0.5 * step);
   double& lost = run_.ledger.zero_energy;
-  for (const std::size_t i : touched) lost += stored_at(i);
-  for (const std::size_t i : touched) write_row(i);
-  for (const std::size_t i : touched) lost -= stored_at(i);
+  for (const std::size_t i : opened) {
+    lost += stored_at(i);
+    share_[i] = share_of(i);
+    lost -= stored_at(i);
+  }
   move(0.5 * step);
 }
 
@@ -154,7 +150,7 @@ double ZeroEnergyControl<Dim>::stored_at(std::size_t i) const {
   const Symmetric f = {fit_[0][i], fit_[1][i], fit_[2][i]};
   const double explained = f.xx * (s.xx * s.xx + s.yx * s.yx) + f.yy * (s.xy * s.xy + s.yy * s.yy) +
                            2.0 * f.xy * (s.xx * s.xy + s.yx * s.yy);
-  return 0.25 * (whole - explained);
+  return 0.25 * share_[i] * (whole - explained);
 }
 
 template class ZeroEnergyControl<2>;

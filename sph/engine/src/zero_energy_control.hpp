@@ -12,15 +12,18 @@ namespace fpz::sph::detail {
 /// derivative of the sum of these energies: a bond pulls with k_ij times the part of u_j - u_i that the mean of its two
 /// gradients does not explain. Nothing for affine displacements, so none for rotations, on any arrangement.
 ///
-/// A bond ends when a particle at one of its ends cracks: what it held is dissipated. Dropping bonds never raises the
-/// energy of the rest, because their gradients are fitted anew.
+/// A particle loses its energy, and no other's, as its crack opens: all of it when it has opened by as much strain
+/// (D delta0/H) as the rock bears elastically (sigma_t0/E). What it held is dissipated. Its neighbours keep theirs,
+/// with the bonds to it: so rows beside a crack cannot alternate, or crack in two places, row by row, with what is
+/// between them free.
 template <int Dim>
 class ZeroEnergyControl {
  public:
   /// `strength`: stiffness in units of lambda + 2 mu, > 0.
   ZeroEnergyControl(RunData<Dim>& run, double strength);
 
-  /// Moves the displacements on by `step` (s) with the velocities at n - 1/2 and ends the bonds of new cracks.
+  /// Moves the displacements on by `step` (s) with the velocities at n - 1/2 and lets go where a crack has
+  /// opened further.
   void advance(double step);
   /// Its force at n, which the kick then adds to the others.
   void act();
@@ -32,7 +35,8 @@ class ZeroEnergyControl {
   static void fields(Self& self, Visit&& visit) {
     using V = View<Dim>;
     constexpr Extent each = Extent::particle;
-    visit(FieldInfo{"zero_energy_fit", each, Keep::saved}, self.fit_, &V::zero_energy_fit);
+    visit(FieldInfo{"zero_energy_fit", each, Keep::constant}, self.fit_, &V::zero_energy_fit);
+    visit(FieldInfo{"zero_energy_share", each, Keep::saved, 1.0}, self.share_, &V::zero_energy_share);
     visit(FieldInfo{"zero_energy_displacement", each, Keep::saved}, self.displacement_, &V::zero_energy_displacement);
     visit(FieldInfo{"zero_energy_gradient", each, Keep::passing}, self.gradient_, &V::zero_energy_gradient);
     visit(FieldInfo{"zero_energy_force", each, Keep::passing}, self.force_, &V::zero_energy_force);
@@ -41,16 +45,15 @@ class ZeroEnergyControl {
   void load(Reader& archive) {
     fields(*this, Transfer<Reader>{archive});
     fields(*this, Spoil{run_.particles.count});
-    connect();
   }
 
  private:
-  /// All bonds between uncracked particles.
-  void connect();
   /// Writes the stiffness of the bonds that particle i has, and what fits a gradient to them.
   void write_row(std::size_t i);
-  /// Particles that have cracked since the last call, and their neighbours.
-  [[nodiscard]] std::vector<std::size_t> note_new_cracks();
+  /// Part of its energy that is left to the cracked particle i with its damage and H.
+  [[nodiscard]] double share_of(std::size_t i) const;
+  /// Particles with more left than their share.
+  [[nodiscard]] std::vector<std::size_t> opened_further() const;
   void move(double step);
   [[nodiscard]] double stored_at(std::size_t i) const;
 
@@ -59,7 +62,7 @@ class ZeroEnergyControl {
   NeighbourLists lists_;           ///< nearest neighbours at the start
   Bonds<Dim> bonds_;               ///< weight: k_ij r_ij
   Field stiffness_;                ///< k_ij, N/m, beside the weights
-  Mask ended_;                     ///< per particle: cracked, its bonds are gone
+  Field share_;                    ///< a_i: the least share_of() since the start
   Fields<Dim*(Dim + 1) / 2> fit_;  ///< inverse of sum k_ij r_ij (x) r_ij, zero without a gradient
   Fields<Dim> displacement_;       ///< since the start: as a sum, without the rounding of positions
   Fields<Dim * Dim> gradient_;     ///< G_i

@@ -151,16 +151,18 @@ double opened_length(const std::vector<Spot>& spots, double spacing) {
   double length = 0.0;
   for (std::size_t i = 0; i < spots.size(); ++i) {
     if (spots[i].damage <= 0.0) continue;
-    double sum = 0.0, largest = 0.0, material = 0.0;
+    double sum = 0.0, squares = 0.0, cubes = 0.0, material = 0.0;
     strip(spots, grid, i, spacing, side, reach, [&](std::size_t j, double off, double weight) {
       const Spot& s = spots[j];
-      sum += s.volume * s.damage * weight;
-      largest = std::max(largest, s.damage);
+      const double damage = s.volume * s.damage * weight;
+      sum += damage;
+      squares += damage * s.damage;
+      cubes += damage * s.damage * s.damage;
       material += s.volume * weight * std::max(0.0, 1.0 - std::abs(off) / (sample * spacing));
     });
     // The width of the strip as the particles sample it; narrower at the ends of a crack on the surface.
     const double width = material / (sample * spacing);
-    length += spots[i].volume * spots[i].damage * largest / sum * width;
+    length += spots[i].volume * spots[i].damage * (cubes / squares) / sum * width;
   }
   return length;
 }

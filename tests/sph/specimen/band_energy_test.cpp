@@ -1,11 +1,13 @@
 // What the band rule is for: a crack dissipates G per area, whichever way it runs through the particles.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "fpz/specimen/crack.hpp"
 #include "fpz/specimen/specimen.hpp"
+#include "reference_curve.hpp"
 
 namespace {
 
@@ -33,25 +35,37 @@ TEST(BandEnergy, CrackLengthIsMeasuredRightForNarrowBands) {
   }
 }
 
-/// Dissipated energy over crack area times G of the notched beam at the end of its test, spacing 4 mm, with the lattice
-/// turned.
-double energy_ratio(double degrees) {
-  const Scene scene = read_scene(std::filesystem::path(FPZ_DATA_DIR) / "scenes/beam_3pb.json",
-                                 {"arrangement.angle_deg=" + std::to_string(degrees), "method.release_integrity=0.02",
-                                  "method.courant=0.9", "method.threads=1", "boundaries[0].velocity.y.speed=-0.02"});
-  const Specimen specimen = make_specimen(scene);
-  fpz::sph::Simulation<2> run(specimen.setup);
-  while (run.time() < 5.5e-3) {
-    const fpz::sph::Outcome o = run.step();
-    if (!o.ok()) throw std::runtime_error(o.message());
+/// Work of the load at half depth up to a deflection, J.
+double work_until(double end, const std::vector<double>& deflection, const std::vector<double>& load) {
+  double work = 0.0;
+  for (std::size_t k = 1; k < load.size() && deflection[k - 1] < end; ++k) {
+    work += 0.5 * (load[k] + load[k - 1]) * (std::min(deflection[k], end) - deflection[k - 1]);
   }
-  const double release_energy = scene.parameters.tensile_strength * scene.parameters.delta0;
-  return run.energies().fracture / (release_energy * opened_length(spots(run, specimen), scene.spacing));
+  return work;
 }
 
-/// 0.91 at this spacing, 1.02 at 2 mm: the target of 5 % is missed here (docs/method.md).
-TEST(BandEnergy, CrackAlongTheLattice) { EXPECT_NEAR(energy_ratio(0.0), 1.0, 0.1); }
-
-TEST(BandEnergy, CrackAcrossTheLattice) { EXPECT_NEAR(energy_ratio(45.0), 1.0, 0.05); }
+/// The notched beam at 4 mm with its lattice turned takes the work of finite elements with a straight cohesive crack
+/// until it has lost nine tenths of its load: neither the program's own crack nor its own energies are asked.
+TEST(BandEnergy, TheBeamTakesTheWorkOfFiniteElements) {
+  constexpr double end = 60e-6;
+  const std::filesystem::path data = FPZ_DATA_DIR;
+  const auto curve = fpz::report::read_reference_curve(data / "reference/beam_3pb_rollers_8mm.csv", {});
+  const double expected = work_until(end, curve.deflection_mid_depth, curve.load);
+  for (const char* degrees : {"0", "20", "45"}) {
+    const Scene scene = read_scene(data / "scenes/beam_3pb.json",
+                                   {"arrangement.angle_deg=" + std::string(degrees), "method.courant=0.9",
+                                    "method.threads=1", "boundaries[0].velocity.y.speed=-0.01"});
+    const Specimen specimen = make_specimen(scene);
+    fpz::sph::Simulation<2> run(specimen.setup);
+    std::vector<double> deflection = {0.0}, load = {0.0};
+    while (deflection.back() < end) {
+      const fpz::sph::Outcome o = run.step();
+      ASSERT_TRUE(o.ok()) << o.message();
+      deflection.push_back(specimen.gauges.at("deflection").value(run, scene.thickness));
+      load.push_back(specimen.gauges.at("load").value(run, scene.thickness));
+    }
+    EXPECT_NEAR(work_until(end, deflection, load) / expected, 1.0, 0.05) << degrees;
+  }
+}
 
 }  // namespace

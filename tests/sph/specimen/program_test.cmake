@@ -42,10 +42,18 @@ if(NOT first STREQUAL second)
   message(SEND_ERROR "a resumed run gives another history")
 endif()
 
+# Sends the signal to a run as soon as the file exists, however slow the machine.
+function(interrupt signal file)
+  execute_process(COMMAND sh -c "\"$@\" & run=$!
+                                 until [ -e '${file}' ] || ! kill -0 $run 2>/dev/null; do sleep 0.1; done
+                                 kill -${signal} $run; wait $run" sh ${ARGN}
+                  OUTPUT_VARIABLE out ERROR_QUIET)
+  set(out "${out}" PARENT_SCOPE)
+endfunction()
+
 # Killed in the middle: every file under its final name is whole, and the run goes on.
-execute_process(COMMAND timeout -s KILL 2 "${PROGRAM}" "${beam}" -o "${WORK}/killed" --set spacing=0.004 --set stop.time=10
-                        --set output.checkpoint_seconds=0.2 --set output.frames=1000 --no-pictures
-                RESULT_VARIABLE result OUTPUT_QUIET ERROR_QUIET)
+interrupt(KILL "${WORK}/killed/checkpoint.bin" "${PROGRAM}" "${beam}" -o "${WORK}/killed" --set spacing=0.004
+          --set stop.time=10 --set output.checkpoint_seconds=0.2 --set output.frames=1000 --no-pictures)
 expect(3 "" "${beam}" -o "${WORK}/killed" --set spacing=0.004 --set stop.time=10 --set output.checkpoint_seconds=0.2
        --set output.frames=1000 --no-pictures --resume --steps 10)
 file(GLOB_RECURSE left_over "${WORK}/killed/.*")
@@ -53,9 +61,8 @@ if(left_over)
   message(SEND_ERROR "temporary files are left: ${left_over}")
 endif()
 # SIGTERM leaves a checkpoint.
-execute_process(COMMAND timeout -s TERM 1 "${PROGRAM}" "${beam}" -o "${WORK}/terminated" --set spacing=0.004
-                        --set stop.time=10 --no-pictures
-                RESULT_VARIABLE result OUTPUT_VARIABLE out ERROR_QUIET)
+interrupt(TERM "${WORK}/terminated/frames/frame_00000.vtu" "${PROGRAM}" "${beam}" -o "${WORK}/terminated"
+          --set spacing=0.004 --set stop.time=10 --no-pictures)
 string(FIND "${out}" "--resume" found)
 if(found EQUAL -1 OR NOT EXISTS "${WORK}/terminated/checkpoint.bin")
   message(SEND_ERROR "SIGTERM: no checkpoint, or not said: ${out}")

@@ -30,7 +30,8 @@ enum class Gradient : std::uint8_t {
 struct RveLength {
   enum class Rule : std::uint8_t {
     spacing,  ///< the particle's own size V^(1/Dim) (the paper)
-    band,     ///< the width over which a crack really spreads, found where it begins: band_width() of band.hpp
+    band,     ///< the width over which a crack really spreads: where it begins band_width() of band.hpp; in
+              ///< `reference` measured as it opens (crack_bands.hpp)
     number    ///< `value` for all
   };
   Rule rule = Rule::band;

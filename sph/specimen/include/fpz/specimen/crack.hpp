@@ -17,7 +17,8 @@ struct Spot {
 
 /// Length of all cracks, m: the projection of the band of cracked particles on the crack. Through each particle passes
 /// a strip along its normal, two spacings to either side along the crack (a hat function) and 4.5 spacings long on
-/// either side; all cracked particles in the strip make up one crack, which counts with the largest damage among them.
+/// either side; all cracked particles in the strip make up one crack, which counts with the damage of those that opened
+/// most (the mean with the weights D^2; the largest would be that of an outlier).
 /// So a fully open crack counts with its length however many columns it takes (within 4 % in any direction of a
 /// lattice), and one that is still opening with D of it, because the cohesive law has then dissipated the part D of G
 /// (mode I).
