@@ -89,14 +89,17 @@ std::vector<Symmetric> VectorProblem::moments() const {
 
 void VectorProblem::make_bonds(const NeighbourLists& lists) {
   const Particles<2>& p = run_.particles;
+  const Arrangement<2>& a = run_.setup.arrangement;
   for (std::size_t i = 0; i < count(); ++i) {
     for (const int j : lists[i]) {
       if (j < static_cast<int>(i)) continue;
       const auto k = static_cast<std::size_t>(j);
-      const Vec2 r = Vec2(p.start[0][k] - p.start[0][i], p.start[1][k] - p.start[1][i]) / run_.h;
-      // The same for all bonds: with the kernel's own weight, displacements that alternate from row to row would hardly
-      // be seen by the multipliers.
-      const double metric = run_.view.slope_norm * p.volume[i] * p.volume[k];
+      const Vec2 from(p.start[0][i], p.start[1][i]), to(p.start[0][k], p.start[1][k]);
+      const Vec2 r = (to - from) / run_.h;
+      const double share = share_of_bond(a.cuts, from, to, a.spacing);
+      // The same for all whole bonds: with the kernel's own weight, displacements that alternate from row to row would
+      // hardly be seen by the multipliers.
+      const double metric = share * run_.view.slope_norm * p.volume[i] * p.volume[k];
       const Vec2 w = metric * kernel_slope(run_.setup.options.kernel, r.norm()) * r;
       bonds_.push_back({static_cast<int>(i), j, r, metric, w, Eigen::Matrix2d::Identity()});
     }

@@ -67,17 +67,33 @@ NeighbourLists find_neighbours(const Fields<Dim>& position, std::size_t count, d
   return lists;
 }
 
+namespace {
+
+/// Drops the pairs for which gone(p, q) holds, with their places at the start.
+template <int Dim, class Gone>
+void drop_pairs(NeighbourLists& lists, const Fields<Dim>& start, Gone&& gone) {
+  const auto point = [&start](std::size_t i) { return Vec<double, Dim>(start[0][i], start[1][i]); };
+  for (std::size_t i = 0; i < lists.size(); ++i) {
+    std::erase_if(lists[i], [&](int j) { return gone(point(i), point(static_cast<std::size_t>(j))); });
+  }
+}
+
+}  // namespace
+
 template <int Dim>
 void separate(NeighbourLists& lists, const std::vector<Cut<Dim>>& cuts, const Fields<Dim>& start) {
   if (cuts.empty()) return;
-  const auto point = [&start](std::size_t i) { return Vec<double, Dim>(start[0][i], start[1][i]); };
-  for (std::size_t i = 0; i < lists.size(); ++i) {
-    std::erase_if(lists[i], [&](int j) {
-      return std::any_of(cuts.begin(), cuts.end(), [&](const Cut<Dim>& cut) {
-        return crosses(cut, point(i), point(static_cast<std::size_t>(j)));
-      });
-    });
-  }
+  drop_pairs<Dim>(lists, start, [&](const auto& p, const auto& q) {
+    return std::any_of(cuts.begin(), cuts.end(), [&](const Cut<Dim>& cut) { return crosses(cut, p, q); });
+  });
+}
+
+template <int Dim>
+void drop_without_share(NeighbourLists& lists, const std::vector<Cut<Dim>>& cuts, const Fields<Dim>& start,
+                        double spacing) {
+  if (cuts.empty()) return;
+  drop_pairs<Dim>(lists, start,
+                  [&](const auto& p, const auto& q) { return share_of_bond(cuts, p, q, spacing) <= 0.0; });
 }
 
 template <int Dim>
@@ -126,6 +142,7 @@ Bonds<Dim> pack(const NeighbourLists& lists, std::size_t padded, bool with_close
 template NeighbourLists find_neighbours<2>(const Fields<2>&, std::size_t, double);
 template NeighbourLists find_neighbours<3>(const Fields<3>&, std::size_t, double);
 template void separate<2>(NeighbourLists&, const std::vector<Cut<2>>&, const Fields<2>&);
+template void drop_without_share<2>(NeighbourLists&, const std::vector<Cut<2>>&, const Fields<2>&, double);
 template std::vector<std::size_t> curve_order<2>(const std::vector<Vec<double, 2>>&, double);
 template std::vector<std::size_t> curve_order<3>(const std::vector<Vec<double, 3>>&, double);
 template Bonds<2> pack<2>(const NeighbourLists&, std::size_t, bool);

@@ -22,6 +22,11 @@ template <int Dim>
 template <int Dim>
 void separate(NeighbourLists& lists, const std::vector<Cut<Dim>>& cuts, const Fields<Dim>& start);
 
+/// Drops the pairs of which the cuts leave nothing (share_of_bond).
+template <int Dim>
+void drop_without_share(NeighbourLists& lists, const std::vector<Cut<Dim>>& cuts, const Fields<Dim>& start,
+                        double spacing);
+
 /// Order of points along a Morton curve with cells of the given size: order[slot] is the point's index. Ties by index.
 template <int Dim>
 [[nodiscard]] std::vector<std::size_t> curve_order(const std::vector<Vec<double, Dim>>& points, double cell);

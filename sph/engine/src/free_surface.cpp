@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -63,6 +64,7 @@ struct Piece {
   Point from, to;
   int before = -1, after = -1;
   bool cut = false;
+  std::array<bool, 2> is_tip = {};  ///< of a cut: the body goes on there
 };
 
 void add_line(std::vector<Piece>& pieces, const std::vector<Point>& line, bool cut) {
@@ -85,7 +87,8 @@ double nearest(const Piece& p, const Point& x) {
 }
 
 /// The surface as it is described: distances to its pieces that are smallest among their neighbours count, each as a
-/// surface of its own; so do corners and ends of lines, wherever they are in reach.
+/// surface of its own; so do corners and ends of lines, wherever they are in reach. Ahead of the tip of a cut nothing
+/// is free: without balance there a cut between scattered particles acts as if it were a spacing longer.
 class DescribedSurface {
  public:
   DescribedSurface(const RunData<2>& run, double reach)
@@ -95,7 +98,10 @@ class DescribedSurface {
         cells_(reach),
         platens_(platen_reach_) {
     for (const auto& line : run.setup.arrangement.surface) add_line(pieces_, line, false);
-    for (const Cut<2>& cut : run.setup.arrangement.cuts) add_line(pieces_, {cut.corner[0], cut.corner[1]}, true);
+    for (const Cut<2>& cut : run.setup.arrangement.cuts) {
+      add_line(pieces_, {cut.corner[0], cut.corner[1]}, true);
+      pieces_.back().is_tip = cut.is_tip;
+    }
     for (std::size_t k = 0; k < pieces_.size(); ++k) {
       const Piece& p = pieces_[k];
       cells_.add(p.from.cwiseMin(p.to), p.from.cwiseMax(p.to), static_cast<int>(k));
@@ -125,8 +131,8 @@ class DescribedSurface {
     const Point direction = (p.to - p.from).normalized();
     const Point normal(-direction[1], direction[0]);
     if (t > 0.0 && t < 1.0) add_normal(f, normal);
-    if (p.before < 0 && (x - p.from).norm() < reach_) f.count = 2;
-    if ((x - p.to).norm() >= reach_) return;
+    if (p.before < 0 && !p.is_tip[0] && (x - p.from).norm() < reach_) f.count = 2;
+    if ((x - p.to).norm() >= reach_ || p.is_tip[1]) return;
     if (p.after < 0) {
       f.count = 2;
       return;

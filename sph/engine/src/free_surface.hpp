@@ -1,7 +1,7 @@
 // Where the body ends: the directions in which a particle near its surface needs no balance of the bonds' vectors.
 //
 // A stress that leaves the surface free has no traction there: only what the vectors of a particle sum to along the
-// surface would be a force. The part along the normal is free. At corners and at the tips of cuts both are.
+// surface would be a force. The part along the normal is free. At corners and at the mouths of cuts both are.
 #pragma once
 
 #include <vector>

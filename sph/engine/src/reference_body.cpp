@@ -17,7 +17,8 @@ template <int Dim>
 ReferenceBody<Dim>::ReferenceBody(RunData<Dim>& run) : Body<Dim>(run) {
   const Particles<Dim>& p = run.particles;
   this->lists_ = find_neighbours<Dim>(p.start, p.count, kernel_support * run.h);
-  separate<Dim>(this->lists_, run.setup.arrangement.cuts, p.start);
+  const Arrangement<Dim>& a = run.setup.arrangement;
+  drop_without_share<Dim>(this->lists_, a.cuts, p.start, a.spacing);
   this->bonds_ = pack<Dim>(this->lists_, p.padded(), false);
   this->builds_ = 1;
   const Options<Dim>& o = run.setup.options;
@@ -74,8 +75,10 @@ Vec<double, Dim> ReferenceBody<Dim>::vector_of(std::size_t i, int j) const {
   const RunData<Dim>& run = this->run_;
   const Particles<Dim>& p = run.particles;
   const auto k = static_cast<std::size_t>(j);
-  const Vec<double, Dim> r(p.start[0][k] - p.start[0][i], p.start[1][k] - p.start[1][i]);
-  const double slope = run.view.slope_norm * (p.volume[i] * p.volume[k]) *
+  const Vec<double, Dim> from(p.start[0][i], p.start[1][i]), to(p.start[0][k], p.start[1][k]);
+  const Vec<double, Dim> r = to - from;
+  const Arrangement<Dim>& a = run.setup.arrangement;
+  const double slope = share_of_bond(a.cuts, from, to, a.spacing) * run.view.slope_norm * (p.volume[i] * p.volume[k]) *
                        kernel_slope(run.setup.options.kernel, std::sqrt(r[0] * r[0] + r[1] * r[1]) / run.h);
   return slope * r;
 }

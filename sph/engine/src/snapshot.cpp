@@ -46,7 +46,7 @@ std::uint64_t fingerprint(const RunSetup<Dim>& s) {
   w(s.arrangement.group);
   for (const auto& line : s.arrangement.surface) w(line);
   w(s.velocity);
-  for (const Cut<Dim>& cut : s.arrangement.cuts) w(cut.corner);
+  for (const Cut<Dim>& cut : s.arrangement.cuts) w(cut.corner), w(cut.is_tip);
   for (const Group<Dim>& g : s.groups) {
     w(g.elastic);
     for (const std::optional<Motion>& m : g.motion) {

@@ -83,7 +83,7 @@ Specimen make_specimen(const Scene& scene) {
   } catch (const std::invalid_argument& e) {
     fail(scene, e.what());
   }
-  for (const Notch& n : scene.body.notches) s.setup.arrangement.cuts.push_back(cut_of(n));
+  for (const Notch& n : scene.body.notches) s.setup.arrangement.cuts.push_back(cut_in(scene.body, n, scene.spacing));
   if (!scene.particles) s.setup.arrangement.surface = surface_lines(scene.body, 0.25 * scene.spacing);
   const sph::Arrangement<2>& a = s.setup.arrangement;
   for (const Notch& n : scene.body.notches) {

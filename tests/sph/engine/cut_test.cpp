@@ -8,7 +8,9 @@
 namespace fpz::sph::test {
 namespace {
 
-Cut<2> line(const Vector& from, const Vector& to) { return {{from, to}}; }
+Cut<2> line(const Vector& from, const Vector& to) { return {{from, to}, {}}; }
+/// From a mouth to a tip.
+Cut<2> to_tip(const Vector& mouth, const Vector& tip) { return {{mouth, tip}, {false, true}}; }
 
 TEST(Cut, LinesThatCross) {
   const Cut<2> c = line(vec(0.0, 0.0), vec(0.0, 1.0));
@@ -40,6 +42,47 @@ TEST(Cut, LinesThroughAnEndDoNotCross) {
       const Vector q = turned(2e-3, 2e-3 * slope);
       EXPECT_FALSE(crosses(c, p, q)) << angle << " " << slope;
       EXPECT_TRUE(crosses(c, turned(-2e-3, -2e-3 * slope - 1e-6), turned(2e-3, 2e-3 * slope - 1e-6)));
+    }
+  }
+}
+
+TEST(Cut, SharesAroundATip) {
+  constexpr double spacing = 0.1;
+  const Cut<2> c = to_tip(vec(0.0, 0.0), vec(0.0, 1.0));
+  const auto share = [&](double y, double slope) {
+    const Vector p = vec(-0.05, y - 0.05 * slope), q = vec(0.15, y + 0.15 * slope);
+    EXPECT_EQ(share_of_bond(c, p, q, spacing), share_of_bond(c, q, p, spacing));
+    return share_of_bond(c, p, q, spacing);
+  };
+  for (const double slope : {-1.0, 0.0, 0.5}) {
+    EXPECT_EQ(share(0.9, slope), 0.0);  // more than 0.9 spacings before the tip
+    EXPECT_NEAR(share(0.985, slope), 0.5, 1e-12);
+    EXPECT_NEAR(share(1.03, slope), 0.8, 1e-12);
+    EXPECT_EQ(share(1.07, slope), 1.0);
+    EXPECT_EQ(share(0.01, slope), 0.0);  // the mouth is sharp
+    EXPECT_EQ(share(-0.01, slope), 1.0);
+  }
+  EXPECT_EQ(share_of_bond(c, vec(0.05, 0.9), vec(0.1, 0.9), spacing), 1.0);  // on one side
+  const std::vector<Cut<2>> both = {c, to_tip(vec(0.1, 0.0), vec(0.1, 1.0))};
+  EXPECT_NEAR(share_of_bond(both, vec(-0.05, 0.985), vec(0.15, 0.985), spacing), 0.25, 1e-12);
+  EXPECT_EQ(share_of_bond(std::vector<Cut<2>>(), vec(-0.05, 0.9), vec(0.15, 0.9), spacing), 1.0);
+}
+
+/// What all bonds of a row across the cut keep, as they lie one spacing apart, follows the tip and not the particles.
+TEST(Cut, SharesSumToTheLengthBeyondTheTip) {
+  constexpr double spacing = 0.1;
+  const auto kept = [&](double tip, double shift) {
+    double sum = 0.0;
+    for (int k = -20; k < 20; ++k) {
+      const double y = (k + shift) * spacing;
+      sum += share_of_bond(to_tip(vec(0.0, -4.0), vec(0.0, tip)), vec(-0.05, y), vec(0.05, y), spacing);
+    }
+    return sum;
+  };
+  for (const double shift : {0.0, 0.2, 0.5, 0.7}) {
+    for (const double tip : {0.0, 0.03, 0.06}) {
+      // A ramp of one and a half spacings leaves a sixth of a bond; one of one spacing nothing, a jump a whole one.
+      EXPECT_NEAR(kept(tip, shift) - kept(0.0, 0.0), shift - tip / spacing, 0.17) << tip << " " << shift;
     }
   }
 }
@@ -139,10 +182,52 @@ TEST(Cut, EndingInTheBodyOpensItsFacesAndLoadsItsTip) {
   }
 }
 
+RunSetup<2> edge_cut_with_tip() {
+  RunSetup<2> s = edge_cut(Configuration::reference);
+  s.arrangement.cuts = {to_tip(vec(12e-3, 0.0), vec(12e-3, 6.3e-3))};
+  return s;
+}
+
+/// Bonds that are there in part take nothing from the gradient: linear fields are exact, whatever the vectors.
+TEST(Cut, LinearFieldsAreExactAroundATip) {
+  Mat<double, 2, 2> rate;
+  rate << 0.3, -0.2, 0.5, 0.1;
+  for (const Gradient gradient : {Gradient::kernel, Gradient::consistent}) {
+    RunSetup<2> s = edge_cut_with_tip();
+    s.options.gradient = gradient;
+    set_velocity(s, [&](const Vector& x) { return Vector(rate * x); });
+    Simulation<2> run(s);
+    advance(run, 1);
+    const Particles<2>& p = run.particles();
+    for (std::size_t i = 0; i < p.count; ++i) {
+      const double g[] = {p.gradient[0][i], p.gradient[1][i], p.gradient[2][i], p.gradient[3][i]};
+      for (int k = 0; k < 4; ++k) EXPECT_NEAR(g[k] / run.time(), rate(k / 2, k % 2), 1e-9);
+    }
+  }
+}
+
+/// Momentum and energy do not mind them either.
+TEST(Cut, ATipKeepsMomentumAndEnergy) {
+  Simulation<2> run(edge_cut_with_tip());
+  advance(run, 300);
+  const Particles<2>& p = run.particles();
+  Vector momentum = Vector::Zero();
+  double size = 0.0;
+  for (std::size_t i = 0; i < p.count; ++i) {
+    momentum += p.mass[i] * vec(p.velocity[0][i], p.velocity[1][i]);
+    size += p.mass[i] * std::hypot(p.velocity[0][i], p.velocity[1][i]);
+  }
+  EXPECT_LT(momentum.norm(), 1e-11 * size);
+  const Energies e = run.energies();
+  EXPECT_GT(e.elastic, 0.0);
+  EXPECT_LT(std::abs(e.error()), 1e-3 * e.kinetic_start);
+}
+
 /// Turned and mirrored set-ups with a cut move alike, with lines through the tip of the cut among the bonds.
 TEST(Cut, RotationAndMirrorSymmetry) {
   for (const Configuration c : configurations) {
     RunSetup<2> s = edge_cut(c);
+    s.arrangement.cuts[0].is_tip = {false, true};
     set_velocity(s, [](const Vector& x) { return vec(0.3 * std::sin(300.0 * x[0]) + 20.0 * x[1], -15.0 * x[0]); });
     Simulation<2> a(s);
     advance(a, 100);

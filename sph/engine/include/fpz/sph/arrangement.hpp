@@ -16,7 +16,7 @@ struct Arrangement {
   std::vector<Vec<double, Dim>> position;
   std::vector<double> volume;  ///< m^Dim
   std::vector<int> group;      ///< index of the boundary group, or specimen
-  std::vector<Cut<Dim>> cuts;  ///< no particles interact across these, boundary particles included
+  std::vector<Cut<Dim>> cuts;  ///< particles do not interact across these, boundary particles included
   /// Surface of the undeformed body as lines of straight pieces, closed ones end where they begin. Empty: the engine
   /// estimates it from the particles.
   std::vector<std::vector<Vec<double, Dim>>> surface;

@@ -69,8 +69,10 @@ struct Body {
 [[nodiscard]] Point along(const Notch& notch);
 [[nodiscard]] Point across(const Notch& notch);
 
-/// The centre line of the notch.
+/// The centre line of the notch, with sharp ends.
 [[nodiscard]] sph::Cut<2> cut_of(const Notch& notch);
+/// The same in a body: an end of a notch without width is a tip where the body goes on half a spacing beyond it.
+[[nodiscard]] sph::Cut<2> cut_in(const Body& body, const Notch& notch, double spacing);
 
 /// The surface of the body in pieces no longer than `step` (m): what of its outlines has the body on one side only.
 /// Lines that close end where they begin; notches without width are not among them.
