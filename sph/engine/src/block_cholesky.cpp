@@ -168,9 +168,10 @@ void BlockCholesky<Size>::factorise() {
     Block middle = matrix_.diagonal[static_cast<std::size_t>(k)];
     for (const int column : columns) {
       const auto i = static_cast<std::size_t>(column);
-      const Block entry =
-          diagonal_[i].template triangularView<Eigen::Lower>().template solve<Eigen::OnTheLeft>(rest[i].transpose())
-              .transpose();
+      const Block entry = diagonal_[i]
+                              .template triangularView<Eigen::Lower>()
+                              .template solve<Eigen::OnTheLeft>(rest[i].transpose())
+                              .transpose();
       rest[i].setZero();
       for (std::size_t n = begin_[i]; n < end[i]; ++n) {
         rest[static_cast<std::size_t>(row_[n])].noalias() -= entry * below_[n].transpose();

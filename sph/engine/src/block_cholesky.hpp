@@ -46,7 +46,7 @@ class BlockCholesky {
   /// Columns of row k of the factor, ascending; `mark` has k for those that have been seen.
   void find_row(int k, std::vector<int>& mark, std::vector<int>& columns) const;
 
-  BlockMatrix<Size> matrix_;        // in the order of elimination; empty once factorised
+  BlockMatrix<Size> matrix_;  // in the order of elimination; empty once factorised
   std::vector<int> order_;
   std::vector<int> parent_;         // first row below the diagonal of each column, -1: none
   std::vector<std::size_t> begin_;  // of each column in below_

@@ -98,6 +98,11 @@ std::size_t Simulation<Dim>::cracked() const {
 }
 
 template <int Dim>
+double Simulation<Dim>::alternation() const {
+  return engine_->control ? engine_->control->alternation() : std::nan("");
+}
+
+template <int Dim>
 double Simulation<Dim>::mean_neighbours() const {
   std::size_t n = 0;
   for (const std::vector<int>& list : engine_->body->lists()) n += list.size();

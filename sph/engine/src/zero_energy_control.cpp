@@ -132,6 +132,18 @@ double ZeroEnergyControl<Dim>::stored() const {
 }
 
 template <int Dim>
+double ZeroEnergyControl<Dim>::alternation() const {
+  double most = 0.0;
+  for (std::size_t i = 0; i < run_.particles.count; ++i) {
+    if (share_[i] < 1.0) continue;
+    double stiffness = 0.0;
+    for (std::size_t k = 0; k < lists_[i].size(); ++k) stiffness += stiffness_[bonds_.entry(i, k)];
+    if (stiffness > 0.0) most = std::max(most, 4.0 * stored_at(i) / stiffness);
+  }
+  return std::sqrt(most);
+}
+
+template <int Dim>
 double ZeroEnergyControl<Dim>::stored_at(std::size_t i) const {
   Full s = {0.0, 0.0, 0.0, 0.0};  // sum k_ij (u_j - u_i) (x) r_ij, and of k_ij |u_j - u_i|^2:
   double whole = 0.0;

@@ -29,6 +29,9 @@ class ZeroEnergyControl {
   void act();
   /// Energy that it holds at n, J.
   [[nodiscard]] double stored() const;
+  /// Largest over the particles with all of their energy: root mean square of |u_j - u_i - G_i r_ij|, weighted with
+  /// k_ij, m.
+  [[nodiscard]] double alternation() const;
   void forget_displacements();
 
   template <class Self, class Visit>

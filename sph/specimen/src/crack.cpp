@@ -151,17 +151,22 @@ double opened_length(const std::vector<Spot>& spots, double spacing) {
   double length = 0.0;
   for (std::size_t i = 0; i < spots.size(); ++i) {
     if (spots[i].damage <= 0.0) continue;
-    double sum = 0.0, squares = 0.0, cubes = 0.0, material = 0.0;
+    double sum = 0.0, squares = 0.0, cubes = 0.0, before = 0.0, beyond = 0.0;
     strip(spots, grid, i, spacing, side, reach, [&](std::size_t j, double off, double weight) {
       const Spot& s = spots[j];
       const double damage = s.volume * s.damage * weight;
       sum += damage;
       squares += damage * s.damage;
       cubes += damage * s.damage * s.damage;
-      material += s.volume * weight * std::max(0.0, 1.0 - std::abs(off) / (sample * spacing));
+      const double material = s.volume * weight * std::max(0.0, 1.0 - std::abs(off) / (sample * spacing));
+      const double behind = off < 0.0 ? 1.0 : off > 0.0 ? 0.0 : 0.5;
+      before += behind * material;
+      beyond += (1.0 - behind) * material;
     });
-    // The width of the strip as the particles sample it; narrower at the ends of a crack on the surface.
-    const double width = material / (sample * spacing);
+    // The width of the strip as the particles sample it; narrower at the ends of a crack on the surface. A crack along
+    // the surface, or a platen, has material on one side only.
+    const double one_sided = 2.0 * std::max(before, beyond), both = before + beyond;
+    const double width = (both < 0.75 * one_sided ? one_sided : both) / (sample * spacing);
     length += spots[i].volume * spots[i].damage * (cubes / squares) / sum * width;
   }
   return length;

@@ -126,7 +126,8 @@ class Runner {
     const std::vector<CrackPath> paths = crack_paths(all, scene_.spacing);
     const std::vector<double> pieces = piece_areas(all, scene_.body.notches, scene_.spacing);
     write_crack(files_.crack, paths);
-    const Findings f = findings(scene_, result.history, opened_length(all, scene_.spacing));
+    const double alternation = run_.alternation() / largest_opening(run_);
+    const Findings f = findings(scene_, result.history, opened_length(all, scene_.spacing), alternation);
     result.warnings = warnings_of(scene_, result.history, f);
     const std::string error = error_of_the_model(scene_, f);
     if (!error.empty()) {

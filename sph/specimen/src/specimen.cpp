@@ -116,6 +116,15 @@ Specimen make_specimen(const Scene& scene) {
   return s;
 }
 
+double largest_opening(const sph::Simulation<2>& run) {
+  const sph::Particles<2>& p = run.particles();
+  double most = std::nan("");
+  for (std::size_t i = 0; i < p.count; ++i) {
+    if (p.kind[i] == sph::kind::cracked) most = std::fmax(most, p.point[i].crack.jump.norm());
+  }
+  return most;
+}
+
 std::vector<Spot> spots(const sph::Simulation<2>& run, const Specimen& specimen) {
   const sph::Particles<2>& p = run.particles();
   const sph::Arrangement<2>& a = specimen.setup.arrangement;

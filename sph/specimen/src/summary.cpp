@@ -84,8 +84,9 @@ Json energies_json(const History& h) {
 
 }  // namespace
 
-Findings findings(const Scene& scene, const History& h, double opened) {
+Findings findings(const Scene& scene, const History& h, double opened, double alternation) {
   Findings f;
+  f.alternation = alternation;
   f.fracture_energy = scene.parameters.tensile_strength * scene.parameters.delta0;
   f.crack_area = opened * scene.thickness;
   if (h.rows() == 0) return f;
@@ -145,13 +146,18 @@ std::vector<std::string> warnings_of(const Scene& scene, const History& h, const
     list.push_back("brittle collapse: kinetic and viscous energy reach " + percent(f.motion_ratio) +
                    " of the external work, more than was put in until then; what follows is no quasi-static test");
   }
-  constexpr double ratio_low = 0.8, ratio_high = 1.25;
+  constexpr double ratio_low = 0.7, ratio_high = 1.25;
   if (f.fracture_energy_ratio < ratio_low || f.fracture_energy_ratio > ratio_high) {
     list.push_back("the fracture dissipated " + percent(f.fracture_energy_ratio) + " of crack area times G: " +
                    (f.fracture_energy_ratio > 1.0 ? "shear, friction or crushing took energy as well, or the crack is "
                                                     "wider than its band (\"rve_length\")"
                                                   : "rows of particles crack side by side, or the crack has not opened "
                                                     "fully"));
+  }
+  if (f.alternation > 0.1) {
+    list.push_back("neighbouring rows of uncracked particles alternate by " + percent(f.alternation) +
+                   " of the largest opening: the crack may be in several places, a sub-lattice in each; a stronger "
+                   "\"zero_energy_control\" or a smaller spacing may help");
   }
   if (f.imbalance > 0.02) {
     list.push_back("load and support differ by up to " + percent(f.imbalance) +
@@ -223,6 +229,7 @@ std::string summary_text(const SummaryInput& in) {
     slots.push_back({{"notch", k}, {"width", number(slot.width)}, {"length", number(slot.length)}});
   }
   j["slots_of_particles"] = slots;
+  j["alternation_over_opening"] = number(f.alternation);
   j["energies"] = energies_json(h);
   j["energy_balance_error"] = number(f.balance_error);
   j["kinetic_over_internal"] = {{"before_peak", number(f.kinetic_ratio)},

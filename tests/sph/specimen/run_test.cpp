@@ -48,7 +48,7 @@ TEST(Run, CoarseBeamCracksAndBalances) {
   }
   EXPECT_GT(t.at("damaged_particles").back(), 4.0);
   EXPECT_GT(t.at("cmod").back(), 0.0);
-  const Findings f = findings(scene, r.history, 0.05);
+  const Findings f = findings(scene, r.history, 0.05, 0.0);
   EXPECT_GT(f.peak_load, 1500.0);
   EXPECT_LT(f.peak_load, 6000.0);
   EXPECT_LT(f.balance_error, 0.01);
@@ -81,7 +81,7 @@ TEST(Run, SofteningIsThatOfTheMaterial) {
   const fs::path folder = fpz::test::fresh_path("bilinear_beam");
   const RunResult r = run(scene, folder);
   EXPECT_EQ(r.ending, Ending::finished) << r.reason;
-  EXPECT_LT(findings(scene, r.history, 0.05).balance_error, 0.01);
+  EXPECT_LT(findings(scene, r.history, 0.05, 0.0).balance_error, 0.01);
   EXPECT_NE(fpz::test::text_of(folder / "summary.json").find("\"softening\": \"bilinear\""), std::string::npos);
   int first_line = 0, second_line = 0;
   for (const Frame& frame : r.frames) {
@@ -165,7 +165,7 @@ TEST(Summary, WarnsWithoutBeingAsked) {
     const double u = 1e-6 * k;
     h.values.insert(h.values.end(), {u, 1e8 * u, 0.9e8 * u, 1.0, 0.5, 0.1, 0.1, 0.2, 0.05, 0.0});
   }
-  const Findings f = findings(scene, h, 0.0);
+  const Findings f = findings(scene, h, 0.0, 0.0);
   EXPECT_NEAR(f.stiffness, 1e8, 1.0);
   EXPECT_TRUE(std::isnan(f.fracture_energy_ratio));
   EXPECT_NEAR(f.imbalance, 0.1, 1e-9);
@@ -202,17 +202,17 @@ std::string warnings(const Scene& scene, const History& h, const Findings& f) {
 TEST(Summary, MoreMotionThanWorkIsACollapse) {
   const Scene scene = small_beam({});
   const History calm = energies({{0, 0, 0, 0, 0}, {1, 1, 0, 0, 0}, {4, 4, 0, 0, 0}, {4, 0, 1.5, 0.5, 2}});
-  EXPECT_EQ(warnings(scene, calm, findings(scene, calm, 0.0)).find("brittle collapse"), std::string::npos);
+  EXPECT_EQ(warnings(scene, calm, findings(scene, calm, 0.0, 0.0)).find("brittle collapse"), std::string::npos);
   const History wild = energies({{0, 0, 0, 0, 0}, {1, 1, 0, 0, 0}, {4, 4, 0, 0, 0}, {4, -2, 3, 1, 2}});
-  EXPECT_NE(warnings(scene, wild, findings(scene, wild, 0.0)).find("brittle collapse"), std::string::npos);
+  EXPECT_NE(warnings(scene, wild, findings(scene, wild, 0.0, 0.0)).find("brittle collapse"), std::string::npos);
 }
 
 TEST(Summary, LessThanNothingStoredIsAnErrorOfTheModel) {
   const Scene scene = small_beam({"material.cohesive_zone=published"});
   const History sound = energies({{0, 0, 0, 0, 0}, {1, 1, 0, 0, 0}, {4, 3, 0, 1, 0}, {4, 0, 0, 4, 0}});
-  EXPECT_EQ(error_of_the_model(scene, findings(scene, sound, 0.0)), "");
+  EXPECT_EQ(error_of_the_model(scene, findings(scene, sound, 0.0, 0.0)), "");
   const History negative = energies({{0, 0, 0, 0, 0}, {1, 1, 0, 0, 0}, {4, 3, 0, 1, 0}, {4, -0.1, 0, 4.1, 0}});
-  const std::string error = error_of_the_model(scene, findings(scene, negative, 0.0));
+  const std::string error = error_of_the_model(scene, findings(scene, negative, 0.0, 0.0));
   EXPECT_NE(error.find("-2.5 % of the external work"), std::string::npos) << error;
   EXPECT_NE(error.find("\"cohesive_zone\": \"consistent\""), std::string::npos) << error;
 }
@@ -224,7 +224,7 @@ TEST(Summary, FractureFarFromGIsSaid) {
   const auto said = [&](double ratio) {
     const double fracture = ratio * area * g;
     const History h = energies({{0, 0, 0, 0, 0}, {1, 1, 0, 0, 0}, {4, 3, 0, 1, 0}, {4, 0, 0, fracture, 0}});
-    return warnings(scene, h, findings(scene, h, 0.05)).find("of crack area times G") != std::string::npos;
+    return warnings(scene, h, findings(scene, h, 0.05, 0.0)).find("of crack area times G") != std::string::npos;
   };
   EXPECT_TRUE(said(0.5));
   EXPECT_FALSE(said(0.9));

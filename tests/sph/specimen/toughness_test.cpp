@@ -112,7 +112,7 @@ TEST(Toughness, FollowsFromThePeakLoad) {
                "energy_fracture", "energy_error",   "energy_viscous"};
   for (const double load : {0.0, 100.0, 208.57, 50.0})
     h.values.insert(h.values.end(), {1e-6, load, load, 1, 1, 0, 0, 0, 0});
-  const Findings f = findings(scene, h, 0.0);
+  const Findings f = findings(scene, h, 0.0, 0.0);
   EXPECT_NEAR(f.toughness->K_I, 67989.0, 20.0);  // 2.15 MPa sqrt(mm)
 }
 

@@ -79,6 +79,9 @@ class Simulation {
   /// Sums over all particles, in a fixed order.
   [[nodiscard]] Energies energies() const;
   [[nodiscard]] std::size_t cracked() const;
+  /// Largest relative displacement of uncracked neighbours that gradients do not see, m: rows that alternate. NaN
+  /// without zero-energy control.
+  [[nodiscard]] double alternation() const;
   [[nodiscard]] long long released_bonds() const;
   [[nodiscard]] long long neighbour_builds() const;
   /// Real neighbours per particle, on average.

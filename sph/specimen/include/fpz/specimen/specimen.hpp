@@ -39,6 +39,8 @@ struct Specimen {
 
 /// The particles of the specimen for the crack measures (without boundary particles).
 [[nodiscard]] std::vector<Spot> spots(const sph::Simulation<2>& run, const Specimen& specimen);
+/// Largest jump of a cracked particle, m; NaN without a crack.
+[[nodiscard]] double largest_opening(const sph::Simulation<2>& run);
 
 /// All particles with their fields for a VTU file, in the order of the arrangement: group, damage, crack_normal, jump,
 /// stress (xx, yy, xy), velocity, displacement, elastic_energy (J/m^3), dissipated_energy (per crack area, J/m^2).

@@ -22,10 +22,12 @@ struct Findings {
   double imbalance = 0.0;            ///< largest |load - support| over the peak, between half the peak and it
   double balance_error = 0.0;        ///< largest error of the energy balance over the largest external work
   double least_elastic = 0.0;        ///< smallest elastic energy over the largest external work: < 0 cannot be
+  double alternation = 0.0;          ///< Simulation::alternation() over the largest jump of a crack; NaN without either
   double motion_ratio = 0.0;         ///< largest (kinetic + viscous) energy gained over the external work of its row
 };
 
-[[nodiscard]] Findings findings(const Scene& scene, const History& history, double opened);
+/// `opened`: opened_length(), m; `alternation`: as in Findings.
+[[nodiscard]] Findings findings(const Scene& scene, const History& history, double opened, double alternation);
 
 /// Why the run cannot be right: less than nothing is stored. Empty otherwise.
 [[nodiscard]] std::string error_of_the_model(const Scene& scene, const Findings& f);
