@@ -55,6 +55,28 @@ void judge_resolution(Scene& scene) {
   scene.warnings.push_back(text.str());
 }
 
+/// Kernel gradients keep constant stress in equilibrium where all neighbourhoods are alike: on lattices.
+void judge_operator(Scene& scene) {
+  const sph::Options<2>& o = scene.options;
+  const bool particles_differ = scene.particles || scene.pattern.move > 0.0 ||
+                                scene.pattern.kind == Pattern::Kind::rings ||
+                                scene.pattern.kind == Pattern::Kind::scattered;
+  std::string setting, way_out;
+  if (o.configuration == sph::Configuration::updated) {
+    setting = "method.configuration = updated", way_out = R"("configuration": "reference")";
+  } else if (o.momentum == sph::MomentumForm::paper) {
+    setting = "method.momentum = paper", way_out = R"("momentum": "adjoint")";
+  } else if (o.gradient == sph::Gradient::kernel) {
+    setting = "method.gradient = kernel", way_out = R"("gradient": "consistent")";
+  }
+  if (!particles_differ || setting.empty()) return;
+  scene.warnings.push_back(
+      setting +
+      ": on particles that are no lattice constant stress is not in equilibrium, and stresses are "
+      "wrong by some tens of per cent; use " +
+      way_out + (scene.particles ? ", unless those of the file are a lattice" : ", or a lattice that is not moved"));
+}
+
 void read_header(const InputReader& r, const Place& root, Scene& scene) {
   const auto text = [&](std::string_view key, std::string& member) {
     with(root, key, [&](const Place& p) { member = r.text(p, 10'000).value_or(""); });
@@ -109,6 +131,7 @@ Scene read_tree(JsonValue& root, const std::string& origin, const io::ReadLimits
     const std::string why = why_unfit(scene.options.method, scene.parameters.choices);
     if (!why.empty()) r.problem(top, why);
   }
+  judge_operator(scene);
   make_paths_absolute(root, scene);
   scene.text = to_text(root);
   return scene;

@@ -73,6 +73,28 @@ TEST(Scene, SpacingsTooCoarseForTheProcessZoneAreSaid) {
   EXPECT_FALSE(said({"material.delta0=1e-6", "spacing=0.002"}));
 }
 
+TEST(Scene, OperatorsThatFailOnAnArrangementAreSaid) {
+  const auto said = [](const std::string& arrangement, const std::string& method) {
+    std::string all;
+    for (const std::string& w :
+         read_scene(scenes / "disc.json", {"arrangement=" + arrangement, method.empty() ? "name=disc" : method})
+             .warnings) {
+      all += w + "\n";
+    }
+    return all.find("constant stress is not in equilibrium") != std::string::npos ? all : "";
+  };
+  const std::string updated = "method.configuration=updated";
+  for (const char* fine : {R"({"type":"lattice"})", R"({"type":"lattice","angle_deg":20})", R"({"type":"sheared"})"}) {
+    EXPECT_EQ(said(fine, updated), "");
+  }
+  for (const char* wrong : {R"({"type":"lattice","move":0.1})", R"({"type":"rings"})", R"({"type":"scattered"})"}) {
+    EXPECT_NE(said(wrong, updated).find(R"(use "configuration": "reference")"), std::string::npos) << wrong;
+    EXPECT_NE(said(wrong, "method.momentum=paper").find(R"(use "momentum": "adjoint")"), std::string::npos);
+    EXPECT_NE(said(wrong, "method.gradient=kernel").find(R"(use "gradient": "consistent")"), std::string::npos);
+    EXPECT_EQ(said(wrong, ""), "");
+  }
+}
+
 TEST(Scene, OverridesAreCheckedLikeTheFile) {
   EXPECT_NE(beam_complaint({"method.courrant=0.3"}).find("did you mean \"courant\"?"), std::string::npos);
   EXPECT_NE(beam_complaint({"spacing=-1"}).find("spacing: -1: must be > 0"), std::string::npos);
