@@ -94,7 +94,7 @@ class DescribedSurface {
   DescribedSurface(const RunData<2>& run, double reach)
       : reach_(reach),
         spacing_(run.setup.arrangement.spacing),
-        platen_reach_(2.0 * reach),
+        platen_reach_(0.5 * reach),
         cells_(reach),
         platens_(platen_reach_) {
     for (const auto& line : run.setup.arrangement.surface) add_line(pieces_, line, false);
@@ -153,7 +153,7 @@ class DescribedSurface {
   }
 
   double reach_, spacing_;
-  double platen_reach_;  // beyond their edges as well, where the stress changes most
+  double platen_reach_;  // the particles that touch them
   std::vector<Piece> pieces_;
   std::vector<Point> covers_;
   Cells cells_, platens_;
