@@ -53,44 +53,50 @@ std::vector<Point> cell_of(const std::vector<Point>& points, std::size_t i, cons
   return cell;
 }
 
-/// Area of the part of a polygon that lies in the body.
-double area_within(const Body& body, const Polygon& polygon) {
+/// The part of a polygon that lies in the body.
+Cell part_within(const Body& body, const Polygon& polygon) {
   constexpr int lines = 256;
   const Body cell{polygon, {}, {}};
   const auto [low, high] = extent(polygon);
   const double bottom = std::max(low[1], extent(body.shape).first[1]);
   const double step = (std::min(high[1], extent(body.shape).second[1]) - bottom) / lines;
-  double sum = 0.0;
+  Cell part;
+  part.cut = true;
   for (int k = 0; k < lines && step > 0.0; ++k) {
     const double y = bottom + (k + 0.5) * step;
     for (const auto& [from, to] : chord(cell, y)) {
       for (const auto& [left, right] : chord(body, y)) {
-        sum += step * std::max(0.0, std::min(to, right) - std::max(from, left));
+        const double begin = std::max(from, left), end = std::min(to, right);
+        const double area = step * std::max(0.0, end - begin);
+        part.area += area;
+        part.centroid += area * Point(0.5 * (begin + end), y);
       }
     }
   }
-  return sum;
+  if (part.area > 0.0) part.centroid /= part.area;
+  return part;
 }
 
 }  // namespace
 
-std::vector<double> cell_areas(const Body& body, const std::vector<Point>& points, double spacing) {
+std::vector<Cell> cells(const Body& body, const std::vector<Point>& points, double spacing) {
   const double piece = 0.25 * spacing;
   std::vector<Point> surface;
   for (const auto& line : surface_lines(body, piece)) surface.insert(surface.end(), line.begin(), line.end());
   const PointGrid near_surface(surface, spacing), grid(points, spacing);
-  std::vector<double> areas;
+  std::vector<Cell> all;
   for (std::size_t i = 0; i < points.size(); ++i) {
     Polygon cell{cell_of(points, i, grid, spacing)};
     const double radius = farthest(cell.corners);
     for (Point& corner : cell.corners) corner += points[i];
     bool whole = true;
     near_surface.near(points[i], radius + piece, [&](std::size_t) { whole = false; });
-    areas.push_back(whole ? area(Shape(cell)) : area_within(body, cell));
+    all.push_back(whole ? Cell{area(Shape(cell)), false, Point::Zero()} : part_within(body, cell));
   }
-  const double scale = area(body) / std::accumulate(areas.begin(), areas.end(), 0.0);
-  for (double& a : areas) a *= scale;
-  return areas;
+  const double sum = std::accumulate(all.begin(), all.end(), 0.0, [](double s, const Cell& c) { return s + c.area; });
+  const double scale = area(body) / sum;
+  for (Cell& c : all) c.area *= scale;
+  return all;
 }
 
 }  // namespace fpz::specimen::detail

@@ -34,7 +34,11 @@ std::string slots_text(const Scene& scene, const Specimen& specimen) {
   s.precision(3);
   for (std::size_t k = 0; k < specimen.slots.size(); ++k) {
     const Notch& n = scene.body.notches[k];
-    if (n.width <= 0.0) continue;
+    if (n.asked_width <= 0.0) continue;
+    if (n.width <= 0.0) {
+      s << "  notch " << k << "           a cut: its " << 1e3 * n.asked_width << " mm are narrower than a spacing\n";
+      continue;
+    }
     s << "  notch " << k << "           " << 1e3 * specimen.slots[k].width << " mm wide, "
       << 1e3 * specimen.slots[k].length << " mm long by its particles (asked for " << 1e3 * n.width << " and "
       << 1e3 * (n.tip - n.mouth).norm() << ")\n";

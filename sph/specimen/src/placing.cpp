@@ -136,10 +136,22 @@ double first_hit(const Shape& shape, const Point& start, const Point& d, double 
   return -1.0;
 }
 
-/// Particles whose cells are known: rings, and the squares of a lattice along the axes.
-bool is_in_order(const Pattern& pattern) {
+/// Particles whose cells are known: rings, and a lattice that fills its rectangle.
+bool is_in_order(const Body& body, const Pattern& pattern) {
   if (pattern.move > 0.0 || pattern.kind == Pattern::Kind::scattered) return false;
-  return pattern.kind == Pattern::Kind::rings || pattern.angle == 0.0;
+  const bool whole = body.holes.empty() && std::all_of(body.notches.begin(), body.notches.end(),
+                                                       [](const Notch& n) { return n.width <= 0.0; });
+  return pattern.kind == Pattern::Kind::rings || (pattern.fit && pattern.angle == 0.0 && whole);
+}
+
+/// Volumes are the areas of the cells. Where the surface cuts a lattice, it leaves larger and smaller parts of cells,
+/// and particles as near to it as chance has it: these move to the middle of their part.
+void take_cells(sph::Arrangement<2>& a, const Body& body, bool to_the_middle) {
+  const std::vector<detail::Cell> cells = detail::cells(body, a.position, a.spacing);
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    a.volume[i] = cells[i].area;
+    if (to_the_middle && cells[i].cut) a.position[i] = cells[i].centroid;
+  }
 }
 
 sph::Arrangement<2> places(const Body& body, const Pattern& pattern, double spacing) {
@@ -160,7 +172,8 @@ sph::Arrangement<2> place_specimen(const Body& body, const Pattern& pattern, dou
   sph::Arrangement<2> a = places(body, pattern, spacing);
   if (a.size() == 0) throw std::invalid_argument("the spacing is so large that no particle fits into the body");
   if (pattern.move > 0.0) detail::move_at_random(a, body, pattern.move * spacing, pattern.seed);
-  if (!is_in_order(pattern)) a.volume = detail::cell_areas(body, a.position, spacing);
+  const bool lattice = pattern.kind == Pattern::Kind::lattice || pattern.kind == Pattern::Kind::sheared;
+  if (!is_in_order(body, pattern)) take_cells(a, body, lattice && pattern.move == 0.0);
   return a;
 }
 

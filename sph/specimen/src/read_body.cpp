@@ -9,7 +9,9 @@ namespace {
 constexpr std::array<std::string_view, 4> notch_keys = {"mouth", "length", "angle_deg", "width"};
 constexpr std::array<std::string_view, 1> widths = {"narrowest"};
 
-Notch read_notch(const InputReader& r, const Place& place, double narrowest) {
+/// A slot narrower than a spacing is a cut: the place of its tip matters more than its width, which particles cannot
+/// follow.
+Notch read_notch(const InputReader& r, const Place& place, double narrowest, double spacing) {
   Notch n;
   n.tip = Point(0.0, 1.0);
   if (!r.object(place, "\"mouth\" and \"length\"")) return n;
@@ -21,7 +23,8 @@ Notch read_notch(const InputReader& r, const Place& place, double narrowest) {
        [&](const Place& p) { angle = degree * r.number_between(p, -360.0, 360.0, true).value_or(0.0); });
   with(place, "width", [&](const Place& p) {
     const bool by_word = p.value().is(JsonValue::Kind::string);
-    n.width = by_word ? narrowest : not_negative(r, p).value_or(0.0);
+    n.asked_width = by_word ? narrowest : not_negative(r, p).value_or(0.0);
+    n.width = n.asked_width < spacing ? 0.0 : n.asked_width;
     if (by_word) (void)word(r, p, widths);
   });
   n.tip = n.mouth + length * Point(-std::sin(angle), std::cos(angle));
@@ -54,7 +57,7 @@ void read_body(const InputReader& r, const Place& root, Scene& scene) {
   with(root, "notches", [&](const Place& p) {
     if (!p.value().is(JsonValue::Kind::array)) return r.problem(p, "expected an array of notches");
     for (const JsonValue& item : p.value().items)
-      scene.body.notches.push_back(read_notch(r, Place(p, item), narrowest));
+      scene.body.notches.push_back(read_notch(r, Place(p, item), narrowest, scene.spacing));
   });
 }
 

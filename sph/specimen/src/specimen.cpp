@@ -67,13 +67,16 @@ SlotOfParticles slot_of_particles(const Notch& notch, const sph::Arrangement<2>&
   const double none = std::numeric_limits<double>::infinity();
   const double length = (notch.tip - notch.mouth).norm();
   double left = none, right = none, beyond = none;
-  for (const Point& x : particles.position) {
-    const double s = along(notch).dot(x - notch.mouth), d = across(notch).dot(x - notch.mouth);
-    if (s > 0.0 && s < length) (d > 0.0 ? left : right) = std::min(d > 0.0 ? left : right, std::abs(d));
-    if (s >= length - spacing && std::abs(d) < 0.5 * std::max(notch.width, spacing)) beyond = std::min(beyond, s);
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    const Point x = particles.position[i] - notch.mouth;
+    const double s = along(notch).dot(x), d = across(notch).dot(x);
+    const double half = 0.5 * particles.volume[i] / spacing;  // of its cell
+    if (s > 0.0 && s < length) (d > 0.0 ? left : right) = std::min(d > 0.0 ? left : right, std::abs(d) - half);
+    const bool before_the_end = s >= length - spacing && std::abs(d) < 0.5 * std::max(notch.width, spacing);
+    if (before_the_end) beyond = std::min(beyond, s - half);
   }
   const auto known = [](double x) { return std::isfinite(x) ? x : std::numeric_limits<double>::quiet_NaN(); };
-  return {known(left + right - spacing), known(beyond - 0.5 * spacing)};
+  return {known(left + right), known(beyond)};
 }
 
 Specimen make_specimen(const Scene& scene) {
@@ -87,7 +90,8 @@ Specimen make_specimen(const Scene& scene) {
   if (!scene.particles) s.setup.arrangement.surface = surface_lines(scene.body, 0.25 * scene.spacing);
   const sph::Arrangement<2>& a = s.setup.arrangement;
   for (const Notch& n : scene.body.notches) {
-    s.slots.push_back(n.width > 0.0 ? slot_of_particles(n, a, scene.spacing) : SlotOfParticles());
+    const SlotOfParticles as_asked{0.0, (n.tip - n.mouth).norm()};
+    s.slots.push_back(n.width > 0.0 ? slot_of_particles(n, a, scene.spacing) : as_asked);
   }
   for (std::size_t i = 0; i < a.size(); ++i) {
     if (a.group[i] == sph::Arrangement<2>::specimen) s.area += a.volume[i];

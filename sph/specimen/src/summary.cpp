@@ -224,7 +224,7 @@ std::string summary_text(const SummaryInput& in) {
   j["pieces_area"] = in.pieces;
   Json slots = Json::array();
   for (std::size_t k = 0; k < in.specimen.slots.size(); ++k) {
-    if (in.scene.body.notches[k].width <= 0.0) continue;
+    if (in.scene.body.notches[k].asked_width <= 0.0) continue;
     const SlotOfParticles& slot = in.specimen.slots[k];
     slots.push_back({{"notch", k}, {"width", number(slot.width)}, {"length", number(slot.length)}});
   }

@@ -81,17 +81,19 @@ double added_energy(double length) {
   return sum * (1.0 - p.poisson_ratio * p.poisson_ratio) / p.young_modulus;
 }
 
-/// Length that the cut has by its energy, less its own, in spacings.
-double excess_length(const Pattern& pattern, double length, bool sharp = false) {
+/// Length that the notch has by its energy, less its own, in spacings; a cut, or a slot so many spacings wide.
+double excess_length(const Pattern& pattern, double length, bool sharp = false, double spacings_wide = 0.0) {
   specimen::Body body = plate();
-  const Notch notch{Point(0.0, 0.0), Point(0.0, length), 0.0};
+  const double slot_width = spacings_wide * spacing;
+  const Notch notch{Point(0.0, 0.0), Point(0.0, length), slot_width, slot_width};
   body.notches = {notch};
   const Arrangement<2> a = specimen::place_specimen(body, pattern, spacing);
   Cut<2> cut = specimen::cut_in(body, notch, spacing);
   EXPECT_FALSE(cut.is_tip[0]);
-  EXPECT_TRUE(cut.is_tip[1]);
+  EXPECT_EQ(cut.is_tip[1], notch.width <= 0.0);
   if (sharp) cut.is_tip = {};
-  const double added = energy(body, a, {cut}) - energy(body, a, {});
+  const Arrangement<2> whole = notch.width > 0.0 ? specimen::place_specimen(plate(), pattern, spacing) : a;
+  const double added = energy(body, a, {cut}) - energy(plate(), whole, {});
   double low = 0.0, high = 0.8 * width;
   while (high - low > 1e-6) {
     const double middle = 0.5 * (low + high);
@@ -109,9 +111,11 @@ struct Range {
 };
 
 /// Of the tip moved over a spacing.
-Range over_a_spacing(const Pattern& pattern, bool sharp = false) {
+Range over_a_spacing(const Pattern& pattern, bool sharp = false, double spacings_wide = 0.0) {
   Range r;
-  for (const double part : {0.0, 0.2, 0.4, 0.6, 0.8}) r.take(excess_length(pattern, (5.0 + part) * spacing, sharp));
+  for (const double part : {0.0, 0.25, 0.5, 0.75}) {
+    r.take(excess_length(pattern, (5.0 + part) * spacing, sharp, spacings_wide));
+  }
   return r;
 }
 
@@ -125,11 +129,10 @@ Pattern lattice(double x, double y, double angle_deg = 0.0) {
 }
 
 TEST(CutTip, IsWhereItWasAskedForOnALattice) {
-  for (const double x : {0.0, 0.3, 0.45}) {
-    const Range r = over_a_spacing(lattice(x, 0.0));
-    EXPECT_GT(r.least, -0.12) << x;
-    EXPECT_LT(r.most, 0.15) << x;
-    EXPECT_LT(r.most - r.least, 0.2) << x;
+  for (const Point& shift : {Point(0.0, 0.0), Point(0.45, 0.0), Point(0.3, 0.2), Point(0.2, 0.5), Point(0.2, 0.8)}) {
+    const Range r = over_a_spacing(lattice(shift[0], shift[1]));
+    EXPECT_GT(r.least, -0.13) << shift.transpose();
+    EXPECT_LT(r.most, 0.15) << shift.transpose();
   }
   const Range sharp = over_a_spacing(lattice(0.0, 0.0), true);
   EXPECT_GT(sharp.most - sharp.least, 0.4);  // what it would be
@@ -148,6 +151,21 @@ TEST(CutTip, IsWhereItWasAskedForOnTurnedAndScatteredParticles) {
     const Range r = over_a_spacing(p);
     EXPECT_GT(r.least, -0.2) << seed;
     EXPECT_LT(r.most, 0.25) << seed;
+  }
+}
+
+/// A slot w wide acts as if it were 0.19 w longer (slots of 3 and 6 spacings with 60 across the plate), and the particles
+/// at its end make that 0.2 spacings more.
+TEST(CutTip, SlotsEndWhereTheyWereAskedFor) {
+  for (const double wide : {1.0, 2.0, 3.0}) {
+    Range all;
+    for (const Point& shift : {Point(0.15, 0.0), Point(0.2, 0.5), Point(0.4, 0.8)}) {
+      const Range r = over_a_spacing(lattice(shift[0], shift[1]), false, wide);
+      all.take(r.least);
+      all.take(r.most);
+    }
+    EXPECT_LT(all.most - all.least, 0.25) << wide;
+    EXPECT_NEAR(0.5 * (all.least + all.most), 0.19 * wide + 0.2, 0.1) << wide;
   }
 }
 

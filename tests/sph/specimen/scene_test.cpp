@@ -188,13 +188,26 @@ TEST(Scene, NotchOpeningLooksAtBothFaces) {
 
 /// Particles interact around the tip of a notch but never across its faces, whatever its width and angle.
 TEST(Scene, SlotsAreMeasuredAtTheirParticles) {
-  // 4 mm columns beside the slot of 9.6 mm: two are missing. Rows of 4 mm: the end at 8 mm is met.
+  // 4 mm columns beside the slot of 9.6 mm: two are missing, and parts of the cells beside them.
   const Specimen coarse = make_specimen(read_scene(scenes / "beam_3pb.json", {}));
   ASSERT_EQ(coarse.slots.size(), 1u);
-  EXPECT_NEAR(coarse.slots[0].width, 8e-3, 1e-6);
-  EXPECT_NEAR(coarse.slots[0].length, 8e-3, 1e-6);
+  EXPECT_NEAR(coarse.slots[0].width, 9.6e-3, 2e-5);
+  EXPECT_NEAR(coarse.slots[0].length, 8e-3, 2e-5);
   const Specimen longer = make_specimen(read_scene(scenes / "beam_3pb.json", {"notches[0].length=0.011"}));
-  EXPECT_NEAR(longer.slots[0].length, 12e-3, 1e-6);
+  EXPECT_NEAR(longer.slots[0].length, 11e-3, 0.05 * 4e-3);
+}
+
+TEST(Scene, SlotsNarrowerThanASpacingAreCuts) {
+  const Scene scene = read_scene(scenes / "beam_3pb.json", {"notches[0].width=0.002"});
+  EXPECT_EQ(scene.body.notches[0].width, 0.0);
+  EXPECT_EQ(scene.body.notches[0].asked_width, 0.002);
+  const Specimen s = make_specimen(scene);
+  EXPECT_EQ(s.setup.arrangement.size(), 1600u + 18u);  // and three rollers
+  EXPECT_FALSE(s.setup.arrangement.cuts[0].is_tip[0]);
+  EXPECT_TRUE(s.setup.arrangement.cuts[0].is_tip[1]);
+  const Scene wide = read_scene(scenes / "beam_3pb.json", {"notches[0].width=0.0041"});
+  EXPECT_EQ(wide.body.notches[0].width, 0.0041);
+  EXPECT_FALSE(make_specimen(wide).setup.arrangement.cuts[0].is_tip[1]);
 }
 
 TEST(Scene, NotchesOfAnyWidthSeparateTheirFaces) {

@@ -39,6 +39,7 @@ using Shape = std::variant<Rectangle, Disc, HalfDisc, Ring, Polygon>;
 struct Notch {
   Point mouth = Point::Zero(), tip = Point::Zero();
   double width = 0.0;
+  double asked_width = 0.0;  ///< narrower than a spacing where `width` is 0 in its place
 };
 
 struct Body {

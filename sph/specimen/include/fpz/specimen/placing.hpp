@@ -28,7 +28,8 @@ struct Pattern {
 };
 
 /// Particles of the specimen. The volume of each is the area of its cell, the part of the body that is nearest to it; a
-/// lattice along the axes has one volume for all, rings one per ring. Their sum is the area of the body. (Volumes that
+/// lattice that fills its rectangle has one volume for all, rings one per ring. Their sum is the area of the body.
+/// Particles of a lattice whose cells the surface cuts are in the middle of what is left of them. (Volumes that
 /// do not follow the density of the particles would bend the vectors of the bonds over long ways.) `spacing` is the
 /// wanted distance. Throws std::invalid_argument when the pattern does not suit the shape, or not all or none of the
 /// particles fit.

@@ -12,22 +12,22 @@
 
 namespace fpz::specimen {
 
-/// Everything that a run needs besides its output.
-/// A slot as its particles make it: they are where they are, not where its faces and its end were asked for.
+/// A slot as its particles make it, or a cut as it is.
 struct SlotOfParticles {
-  double width = 0.0;   ///< between the faces, half a spacing before the nearest particles of both sides, m
-  double length = 0.0;  ///< from the mouth to half a spacing before the first particle beyond the end, m
+  double width = 0.0;   ///< between the cells of the nearest particles of both sides, m; 0: a cut
+  double length = 0.0;  ///< from the mouth to the cell of the first particle beyond the end, m
 };
 
 /// Of a notch with a width above 0. NaN where no particle stands beside or beyond it.
 [[nodiscard]] SlotOfParticles slot_of_particles(const Notch& notch, const sph::Arrangement<2>& particles,
                                                 double spacing);
 
+/// Everything that a run needs besides its output.
 struct Specimen {
   sph::RunSetup<2> setup;
   std::map<std::string, BoundGauge> gauges;
   double area = 0.0;                   ///< of the specimen without boundary particles, m^2
-  std::vector<SlotOfParticles> slots;  ///< of the notches, in their order; zero for cuts
+  std::vector<SlotOfParticles> slots;  ///< of the notches, in their order
 };
 
 /// Places the particles and binds the gauges. Throws io::InputError naming the scene when something does not fit.
