@@ -8,6 +8,7 @@
 #include "checkpointer.hpp"
 #include "fpz/io/output.hpp"
 #include "fpz/io/problems.hpp"
+#include "fpz/specimen/closure.hpp"
 #include "fpz/specimen/summary.hpp"
 #include "frame_writer.hpp"
 #include "recorder.hpp"
@@ -129,6 +130,8 @@ class Runner {
     const double alternation = run_.alternation() / largest_opening(run_);
     const Findings f = findings(scene_, result.history, opened_length(all, scene_.spacing), alternation);
     result.warnings = warnings_of(scene_, result.history, f);
+    const std::string closed = warning_of_closure(overlaps(), scene_.spacing);
+    if (!closed.empty()) result.warnings.push_back(closed);
     const std::string error = error_of_the_model(scene_, f);
     if (!error.empty()) {
       result.ending = Ending::failed;
@@ -138,6 +141,21 @@ class Runner {
     io::write_text(files_.summary, summary_text({scene_, specimen_, run_, result, f, paths, pieces}), true);
     std::error_code ignored;
     fs::remove(files_.checkpoint, ignored);
+  }
+
+  /// Of the faces of each notch, m.
+  [[nodiscard]] std::vector<double> overlaps() const {
+    const sph::Particles<2>& p = run_.particles();
+    std::vector<Point> start, displacement;
+    for (std::size_t i = 0; i < p.count; ++i) {
+      start.emplace_back(p.start[0][i], p.start[1][i]);
+      displacement.emplace_back(p.position[0][i] - p.start[0][i], p.position[1][i] - p.start[1][i]);
+    }
+    std::vector<double> all;
+    for (const Notch& n : scene_.body.notches) {
+      all.push_back(face_overlap(n, start, displacement, scene_.spacing));
+    }
+    return all;
   }
 
   void save() { checkpointer_.save(run_, recorder_, frames_, seconds()); }
