@@ -26,9 +26,6 @@ constexpr double first_strain = 1.0;
 constexpr double shortest = 0.5;
 constexpr double longest = 5.0;
 constexpr double longest_of_snap_back = 0.4;
-/// H of a crack with less integrity stays: next to nothing is left to dissipate, and its bonds are cut.
-constexpr double least_integrity = 0.02;
-
 double across(double s) { return std::clamp((outer - s) / (outer - inner), 0.0, 1.0); }
 
 double along(double t) {

@@ -25,6 +25,9 @@ namespace fpz::sph::detail {
 template <int Dim>
 class CrackBands {
  public:
+  /// H of a crack with less integrity stays: next to nothing is left to dissipate, and its bonds are cut.
+  static constexpr double least_integrity = 0.02;
+
   explicit CrackBands(RunData<Dim>& run) : run_(run) {
     const std::size_t count = run.particles.count;
     for (Field& c : shift_) c.assign(count, 0.0);

@@ -15,6 +15,10 @@ struct Full {
 
 FPZ_LANE Full full(const Symmetric& a) { return {a.xx, a.xy, a.xy, a.yy}; }
 
+FPZ_LANE Full product(const Full& a, const Full& b) {
+  return {a.xx * b.xx + a.xy * b.yx, a.xx * b.xy + a.xy * b.yy, a.yx * b.xx + a.yy * b.yx, a.yx * b.xy + a.yy * b.yy};
+}
+
 /// Rotation R and stretch U - I of F = R U = I + b, without cancellation for small b (row-major components).
 struct Stretch {
   double cosine, sine;

@@ -11,6 +11,7 @@ namespace {
 // Openings grow slowly; steps between searches for open bonds, and between changes of H:
 constexpr long long release_interval = 16;
 constexpr long long band_interval = 4;
+constexpr double most_lean = 0.6;
 }  // namespace
 
 template <int Dim>
@@ -25,6 +26,7 @@ ReferenceBody<Dim>::ReferenceBody(RunData<Dim>& run) : Body<Dim>(run) {
   if (o.gradient == Gradient::consistent && o.momentum == MomentumForm::adjoint) {
     vectors_ = make_bond_vectors(run, this->lists_);
   }
+  leans_.assign(p.count, 0.0);
   for (std::size_t i = 0; i < p.count; ++i) write_row(i);
   this->point_bonds();
   if (o.rve_length.rule == RveLength::Rule::band) bands_.emplace(run);
@@ -37,7 +39,12 @@ Outcome ReferenceBody<Dim>::advance() {
     run.passes->drift(run.view, first, last);
     run.passes->gradient_reference(run.view, first, last);
   });
-  if (bands_ && run.steps % band_interval == 0) bands_->follow();
+  if (bands_ && run.steps % band_interval == 0) {
+    bands_->follow();
+    if (run.setup.options.momentum == MomentumForm::adjoint) {
+      run.for_chunks([this](Index first, Index last) { straighten(first, last); });
+    }
+  }
   if (run.setup.options.release_integrity > 0.0 && run.steps % release_interval == 0) release_bonds();
   return outcome;
 }
@@ -94,43 +101,108 @@ Full ReferenceBody<Dim>::correction_of_row(const Full& moment) const {
 template <int Dim>
 void ReferenceBody<Dim>::write_row(std::size_t i) {
   RunData<Dim>& run = this->run_;
-  Particles<Dim>& p = run.particles;
   Bonds<Dim>& bonds = this->bonds_;
   const std::vector<int>& list = this->lists_[i];
   const std::size_t block = i / lanes;
   const auto width = static_cast<std::size_t>(bonds.column[block + 1] - bonds.column[block]);
   const auto entry = [&](std::size_t k) { return bonds.entry(i, k); };
-  Full moment = {0.0, 0.0, 0.0, 0.0};
   for (std::size_t k = 0; k < width; ++k) {
     const bool real = k < list.size();
-    const std::size_t j = real ? static_cast<std::size_t>(list[k]) : i;
     const Vec<double, Dim> w = real ? vector_of(i, list[k]) : Vec<double, Dim>(Vec<double, Dim>::Zero());
-    bonds.neighbour[entry(k)] = static_cast<int>(j);
+    bonds.neighbour[entry(k)] = real ? list[k] : static_cast<int>(i);
     bonds.weight[0][entry(k)] = w[0];
     bonds.weight[1][entry(k)] = w[1];
-    const double rx = p.start[0][j] - p.start[0][i];
-    const double ry = p.start[1][j] - p.start[1][i];
-    moment.xx += rx * w[0];
-    moment.xy += rx * w[1];
-    moment.yx += ry * w[0];
-    moment.yy += ry * w[1];
   }
-  const double inverse = 1.0 / p.volume[i];
-  Full c = correction_of_row({moment.xx * inverse, moment.xy * inverse, moment.yx * inverse, moment.yy * inverse});
-  if (run.setup.options.momentum == MomentumForm::paper) {
-    // L_i is on both stresses and on the velocity gradient alike: it goes into the weights of the row.
-    for (std::size_t k = 0; k < width; ++k) {
-      const double wx = bonds.weight[0][entry(k)];
-      const double wy = bonds.weight[1][entry(k)];
-      bonds.weight[0][entry(k)] = c.xx * wx + c.xy * wy;
-      bonds.weight[1][entry(k)] = c.yx * wx + c.yy * wy;
-    }
-    c = {1.0, 0.0, 0.0, 1.0};
+  const Full c = correction_of_row(moment_of_row(i));
+  if (run.setup.options.momentum == MomentumForm::adjoint) {
+    set_correction(i, c);
+    return;
   }
-  p.correction[0][i] = c.xx;
-  p.correction[1][i] = c.yy;
-  p.correction[2][i] = c.xy;
-  p.correction[3][i] = c.yx;
+  // L_i is on both stresses and on the velocity gradient alike: it goes into the weights of the row.
+  for (std::size_t k = 0; k < width; ++k) {
+    const double wx = bonds.weight[0][entry(k)];
+    const double wy = bonds.weight[1][entry(k)];
+    bonds.weight[0][entry(k)] = c.xx * wx + c.xy * wy;
+    bonds.weight[1][entry(k)] = c.yx * wx + c.yy * wy;
+  }
+  set_correction(i, {1.0, 0.0, 0.0, 1.0});
+}
+
+template <int Dim>
+template <class Difference>
+Full ReferenceBody<Dim>::sum_over_row(std::size_t i, Difference&& difference) const {
+  Full sum = {0.0, 0.0, 0.0, 0.0};
+  const double inverse = 1.0 / this->run_.particles.volume[i];
+  for (std::size_t k = 0; k < this->lists_[i].size(); ++k) {
+    const std::size_t entry = this->bonds_.entry(i, k);
+    const Vec<double, Dim> d = inverse * difference(static_cast<std::size_t>(this->lists_[i][k]));
+    sum.xx += d[0] * this->bonds_.weight[0][entry];
+    sum.xy += d[0] * this->bonds_.weight[1][entry];
+    sum.yx += d[1] * this->bonds_.weight[0][entry];
+    sum.yy += d[1] * this->bonds_.weight[1][entry];
+  }
+  return sum;
+}
+
+template <int Dim>
+Full ReferenceBody<Dim>::moment_of_row(std::size_t i) const {
+  const Fields<Dim>& x = this->run_.particles.start;
+  return sum_over_row(i, [&](std::size_t j) { return Vec<double, Dim>(x[0][j] - x[0][i], x[1][j] - x[1][i]); });
+}
+
+/// Derivatives along a crack are taken in the direction t - lean n: L_i (I - lean n (x) t). Of stress and strain alike,
+/// so that the force stays the derivative of the energy.
+template <int Dim>
+void ReferenceBody<Dim>::set_correction(std::size_t i, const Full& c) {
+  Particles<Dim>& p = this->run_.particles;
+  Full l = c;
+  if (leans_[i] != 0.0) {
+    const double nx = p.point[i].frame(0, 0), ny = p.point[i].frame(0, 1);
+    const double tx = leans_[i] * p.point[i].frame(1, 0), ty = leans_[i] * p.point[i].frame(1, 1);
+    const double x = c.xx * nx + c.xy * ny, y = c.yx * nx + c.yy * ny;
+    l = {c.xx - x * tx, c.xy - x * ty, c.yx - y * tx, c.yy - y * ty};
+  }
+  p.correction[0][i] = l.xx;
+  p.correction[1][i] = l.yy;
+  p.correction[2][i] = l.xy;
+  p.correction[3][i] = l.yx;
+}
+
+/// A jump d gives a row the gradient d (x) g, g being the sum of the bonds' vectors beyond the crack: the direction of
+/// g is that in which the gradient is largest. It counts as far as one direction stands out and the gradient is more
+/// than the rock bears elastically.
+template <int Dim>
+double ReferenceBody<Dim>::lean_of(std::size_t i, const Full& correction) const {
+  const RunData<Dim>& run = this->run_;
+  const Particles<Dim>& p = run.particles;
+  const Full raw = sum_over_row(i, [&](std::size_t j) {
+    return Vec<double, Dim>((p.position[0][j] - p.position[0][i]) - (p.start[0][j] - p.start[0][i]),
+                            (p.position[1][j] - p.position[1][i]) - (p.start[1][j] - p.start[1][i]));
+  });
+  const Full g = product(raw, correction);
+  const Symmetric square = {g.xx * g.xx + g.yx * g.yx, g.xy * g.xy + g.yy * g.yy, g.xx * g.xy + g.yx * g.yy};
+  const double mean = 0.5 * (square.xx + square.yy), half = 0.5 * (square.xx - square.yy);
+  const double radius = std::hypot(half, square.xy);
+  const double largest = std::sqrt(mean + radius), other = std::sqrt(std::max(0.0, mean - radius));
+  const double elastic = run.setup.parameters.tensile_strength / run.setup.parameters.young_modulus;
+  if (!(largest > elastic) || !(largest > 2.0 * other)) return 0.0;
+  const double angle = 0.5 * std::atan2(square.xy, half);
+  const Vec<double, Dim> direction = p.point[i].frame * Vec<double, Dim>(std::cos(angle), std::sin(angle));
+  if (std::abs(direction[1]) > std::abs(direction[0])) return 0.0;
+  const double counts = (1.0 - 2.0 * other / largest) * (1.0 - elastic / largest);
+  return counts * std::clamp(direction[1] / direction[0], -most_lean, most_lean);
+}
+
+template <int Dim>
+void ReferenceBody<Dim>::straighten(Index first, Index last) {
+  const Particles<Dim>& p = this->run_.particles;
+  for (std::size_t i = lanes_begin(first); i < std::min(lanes_begin(last), p.count); ++i) {
+    if (p.kind[i] != kind::cracked || p.point[i].crack.integrity < CrackBands<Dim>::least_integrity) continue;
+    const Full c = correction_of_row(moment_of_row(i));
+    leans_[i] = lean_of(i, c);
+    set_correction(i, c);
+    set_flux(i, {p.stress[0][i], p.stress[1][i], p.stress[2][i]});
+  }
 }
 
 template <int Dim>
@@ -182,12 +254,14 @@ void ReferenceBody<Dim>::release_bonds() {
 template <int Dim>
 void ReferenceBody<Dim>::save(Writer& archive) const {
   this->transfer_lists(archive, *this);
+  archive(leans_);
   if (bands_) CrackBands<Dim>::transfer(archive, *bands_);
 }
 
 template <int Dim>
 void ReferenceBody<Dim>::load(Reader& archive) {
   this->transfer_lists(archive, *this);
+  archive(leans_);
   if (bands_) CrackBands<Dim>::transfer(archive, *bands_);
   // Rows keep their place; only what was cut since the start differs.
   for (std::size_t i = 0; i < this->run_.particles.count; ++i) write_row(i);

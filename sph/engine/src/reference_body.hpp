@@ -34,13 +34,26 @@ class ReferenceBody final : public Body<Dim> {
   [[nodiscard]] Vec<double, Dim> vector_of(std::size_t i, int j) const;
   /// L_i from the moment of the row's vectors over its volume.
   [[nodiscard]] Full correction_of_row(const Full& moment) const;
+  /// Sum of a vector from i to its neighbours (x) the bond's vector, over the volume.
+  template <class Difference>
+  [[nodiscard]] Full sum_over_row(std::size_t i, Difference&& difference) const;
+  [[nodiscard]] Full moment_of_row(std::size_t i) const;
+  /// Sets L_i, with what leans_ adds.
+  void set_correction(std::size_t i, const Full& c);
+  /// Finds leans_ of the cracked particles again.
+  void straighten(Index first, Index last);
+  [[nodiscard]] double lean_of(std::size_t i, const Full& correction) const;
   /// Cuts bonds across open cracks (options.release_integrity).
   void release_bonds();
   /// Neighbours of a cracked particle beyond its crack, far enough away to let go.
   [[nodiscard]] std::vector<int> released_by(std::size_t i) const;
 
   std::optional<BondVectors<Dim>> vectors_;  ///< none: those of the kernel
-  std::optional<CrackBands<Dim>> bands_;     ///< none: H is a number or the size
+  /// The gradient of a crack that the neighbours of a particle see, over that across it: 0 where they lie evenly, or
+  /// where there is no crack. Along the crack its opening has no such derivative; what the row makes of it would be a
+  /// shear.
+  Field leans_;
+  std::optional<CrackBands<Dim>> bands_;  ///< none: H is a number or the size
 };
 
 }  // namespace fpz::sph::detail

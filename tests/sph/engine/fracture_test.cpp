@@ -75,9 +75,8 @@ TEST(Fracture, PairInMixedModeFollowsTheLibrary) {
   }
 }
 
-/// A single column of particles, and a column of pairs, torn apart between prescribed ends: where it cracks the strain
-/// localises; every particle still follows the library on its own strain path, exactly, with the H that it got.
-void column_follows(int rows, RveLength::Rule rule) {
+/// A single column of particles, and a column of pairs, torn apart between prescribed ends.
+RunSetup<2> column(int rows, RveLength::Rule rule) {
   constexpr int columns = 12;
   RunSetup<2> s = block(columns, rows, 0.0, spacing);
   s.parameters = concrete();
@@ -88,6 +87,11 @@ void column_follows(int rows, RveLength::Rule rule) {
   add_group(s, {"left", {Motion{-speed, 5e-4}, still}, true}, [](const Vector& x) { return x[0] < 2.0 * spacing; });
   add_group(s, {"right", {Motion{speed, 5e-4}, still}, true},
             [](const Vector& x) { return x[0] > (columns - 2) * spacing; });
+  return s;
+}
+
+void column_follows(int rows) {
+  const RunSetup<2> s = column(rows, RveLength::Rule::spacing);
   Simulation<2> run(s);
   fpz::Options o;
   o.method = Method::implicit;
@@ -123,9 +127,48 @@ void column_follows(int rows, RveLength::Rule rule) {
 }
 
 TEST(Fracture, EveryParticleOfAColumnFollowsTheLibrary) {
-  for (const RveLength::Rule rule : {RveLength::Rule::spacing, RveLength::Rule::band}) {
-    column_follows(1, rule);
-    column_follows(2, rule);
+  column_follows(1);
+  column_follows(2);
+}
+
+/// With H measured while it opens, the particles of a crack have one jump, that of the body, and their volumes over H
+/// add up to its area, however many of them share it.
+TEST(Fracture, RowsOfACrackHaveItsJumpAndItsArea) {
+  for (const int rows : {1, 2}) {
+    RunSetup<2> s = column(rows, RveLength::Rule::band);
+    s.parameters.cohesion *= 2.0;  // mode I: the plane across the column
+    Simulation<2> run(s);
+    const Particles<2>& p = run.particles();
+    const auto least_integrity = [&p] {
+      double least = 1.0;
+      for (std::size_t i = 0; i < p.count; ++i) {
+        if (p.kind[i] == kind::cracked) least = std::min(least, p.point[i].crack.integrity);
+      }
+      return least;
+    };
+    for (int k = 0; k < 8000 && least_integrity() > 0.2; ++k) ASSERT_TRUE(run.step().ok());
+    const double area = rows * spacing;
+    double opening = 0.0, elastic = 0.0;  // of the ends; what the stress stretches between them
+    for (std::size_t i = 0; i < p.count; ++i) {
+      if (p.kind[i] != kind::elastic) elastic += p.stress[0][i] * p.volume[i] / area;
+    }
+    elastic /= s.parameters.young_modulus;
+    opening = p.position[0][run.slot(s.arrangement.size() - 1)] - p.start[0][run.slot(s.arrangement.size() - 1)] -
+              (p.position[0][run.slot(0)] - p.start[0][run.slot(0)]) - elastic;
+    double shared = 0.0;
+    for (std::size_t i = 0; i < p.count; ++i) {
+      if (p.kind[i] != kind::cracked || p.point[i].crack.integrity > 0.9) continue;
+                  p.point[i].frame(0, 0), p.point[i].frame(0, 1), p.point[i].crack.jump[1], p.strain[1][i],
+                  p.strain[2][i], 1 - p.point[i].crack.integrity, p.length[i], p.point[i].crack.jump[0], opening,
+                  p.strain[0][i], p.stress[0][i]);
+                  EXPECT_NEAR(p.point[i].crack.jump[0] / opening, 1.0, 0.1) << rows;
+                  shared += p.volume[i] / p.length[i];
+    }
+    EXPECT_NEAR(shared / area, 1.0, 0.05) << rows;
+    EXPECT_GT(opening, s.parameters.delta0);
+    const double dissipated = 1.0 - std::exp(-opening / s.parameters.delta0);
+    EXPECT_NEAR(run.energies().fracture / (s.parameters.tensile_strength * s.parameters.delta0 * area), dissipated,
+                0.05);
   }
 }
 

@@ -44,7 +44,8 @@ inline constexpr std::array<EnergyTerm, 9> energy_terms = {{
     {"fracture",      &Energies::fracture,      EnergyRole::sink,    "dissipated by the cohesive zones"},
     {"zero_energy",   &Energies::zero_energy,   EnergyRole::sink,    "stored in the zero-energy control"},
     {"viscous",       &Energies::viscous,       EnergyRole::sink,
-     "dissipated by artificial viscosity, and by the zero-energy control where cracks begin"},
+     "dissipated by artificial viscosity, by the zero-energy control where cracks begin, and where H is measured again "
+     "(it can come back)"},
     {"damping",       &Energies::damping,       EnergyRole::sink,    "dissipated by local damping"},
     {"artificial",    &Energies::artificial,    EnergyRole::sink,    "taken by the artificial stress"},
 }};
