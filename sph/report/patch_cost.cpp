@@ -56,7 +56,8 @@ bool in_own_process(const std::function<Figures()>& work, Figures& figures) {
     _exit(sent ? 0 : 1);
   }
   close(ends[1]);
-  const bool received = child > 0 && read(ends[0], figures.data(), sizeof figures) == static_cast<ssize_t>(sizeof figures);
+  const bool received =
+      child > 0 && read(ends[0], figures.data(), sizeof figures) == static_cast<ssize_t>(sizeof figures);
   close(ends[0]);
   int status = 0;
   return child > 0 && waitpid(child, &status, 0) == child && status == 0 && received;
@@ -76,8 +77,7 @@ struct Problem {
 
   explicit Problem(const sph::RunSetup<2>& setup)
       : run(setup, 1.0),
-        lists(sph::detail::find_neighbours<2>(run.particles.start, run.particles.count,
-                                              sph::kernel_support * run.h)),
+        lists(sph::detail::find_neighbours<2>(run.particles.start, run.particles.count, sph::kernel_support * run.h)),
         equations(sph::detail::normal_equations(run, lists)) {}
 };
 

@@ -83,8 +83,7 @@ DiscErrors loaded_disc_errors(const specimen::Pattern& pattern, double spacing, 
   s.options.threads = 1;
   const double radius = specimen::extent(scene.body.shape).second[0];  // about the origin
   const double half_angle = std::asin(0.5 * scene.boundaries.front().platen->width / radius);
-  const sph::StaticLoad<2> given =
-      load == DiscLoad::pressure ? press(s, radius, half_angle) : move_platens(s);
+  const sph::StaticLoad<2> given = load == DiscLoad::pressure ? press(s, radius, half_angle) : move_platens(s);
   const sph::StaticState<2> state = sph::StaticBody<2>(s).equilibrium(given);
   const double force = load == DiscLoad::pressure ? 1.0 : 0.5 * (state.reaction[1][1] - state.reaction[0][1]);
   const double unit = force / (pi * radius);

@@ -36,7 +36,8 @@ struct Target {
   std::string of;  ///< the arrangement with the largest error
 
   void take(const std::string& name, const Errors& e) {
-    if (e.rms / wanted.rms > reached.rms / wanted.rms || e.worst / wanted.worst > reached.worst / wanted.worst) of = name;
+    if (e.rms / wanted.rms > reached.rms / wanted.rms || e.worst / wanted.worst > reached.worst / wanted.worst)
+      of = name;
     reached = larger(reached, e);
   }
   [[nodiscard]] bool met() const { return reached.rms < wanted.rms && reached.worst < wanted.worst; }
@@ -87,12 +88,12 @@ void write_fields(Page& page, const std::vector<NamedPattern>& patterns, const s
 }
 
 void write_strips(Page& page, const std::vector<int>& rows) {
-  page.text << "\n## Strip between tractions\n\nHeight 1, length 2, the exact tractions on its ends, nothing held. Errors "
-               "in the middle half of the length; a column for particles deeper than three spacings (inside) and for "
-               "the others (surface), with the number of rows across.\n";
+  page.text
+      << "\n## Strip between tractions\n\nHeight 1, length 2, the exact tractions on its ends, nothing held. Errors "
+         "in the middle half of the length; a column for particles deeper than three spacings (inside) and for "
+         "the others (surface), with the number of rows across.\n";
   Target tension{"strip, even tension", {0.01, 0.05}, {}, ""}, bending{"strip, bending", {0.01, 0.05}, {}, ""};
-  write_fields(page, strip_patterns(), rows,
-               {{"inside", &PatchErrors::inside}, {"surface", &PatchErrors::surface}},
+  write_fields(page, strip_patterns(), rows, {{"inside", &PatchErrors::inside}, {"surface", &PatchErrors::surface}},
                [&](const NamedPattern& p, int n) {
                  const BothFields e = strip_errors(p.pattern, n, StripEnds::traction);
                  add_point(page.bending, p.name, 1.0 / n, 100.0 * larger(e[1].inside, e[1].surface).rms);
@@ -107,8 +108,9 @@ void write_strips(Page& page, const std::vector<int>& rows) {
 }
 
 void write_held_strips(Page& page, const std::vector<int>& rows) {
-  page.text << "\n## Strip between held ends\n\nThe same with the exact displacement on the particles of 2.4 spacings at "
-               "either end, as bonded grips have it. \"Ends\" is everything outside the middle half that is not held.\n";
+  page.text
+      << "\n## Strip between held ends\n\nThe same with the exact displacement on the particles of 2.4 spacings at "
+         "either end, as bonded grips have it. \"Ends\" is everything outside the middle half that is not held.\n";
   write_fields(page, strip_patterns(), rows,
                {{"inside", &PatchErrors::inside}, {"surface", &PatchErrors::surface}, {"ends", &PatchErrors::ends}},
                [](const NamedPattern& p, int n) { return strip_errors(p.pattern, n, StripEnds::held); });
@@ -124,10 +126,11 @@ void write_kernel(Page& page, int rows) {
 }
 
 void write_discs(Page& page, const std::vector<int>& rows) {
-  page.text << "\n## Disc under tractions all round\n\nThe same two stresses in a disc, with the exact tractions on its "
-               "rim: here rings can be compared. Inside is within 0.6 of the radius; the rest is called surface. A "
-               "traction acts on a surface whose particles are balanced along it only, so that the stress in the outer "
-               "three rows is wrong by some per cent at any spacing; it does not reach inside.\n";
+  page.text
+      << "\n## Disc under tractions all round\n\nThe same two stresses in a disc, with the exact tractions on its "
+         "rim: here rings can be compared. Inside is within 0.6 of the radius; the rest is called surface. A "
+         "traction acts on a surface whose particles are balanced along it only, so that the stress in the outer "
+         "three rows is wrong by some per cent at any spacing; it does not reach inside.\n";
   Target tension{"disc, even tension, inside", {0.01, 0.05}, {}, ""},
       bending{"disc, linear stress, inside", {0.01, 0.05}, {}, ""};
   write_fields(page, disc_patterns(), rows, {{"inside", &PatchErrors::inside}, {"surface", &PatchErrors::surface}},
@@ -144,9 +147,10 @@ void write_discs(Page& page, const std::vector<int>& rows) {
 }
 
 void write_loaded_discs(Page& page, const std::vector<double>& spacings) {
-  page.text << "\n## Solid disc under load\n\n`data/scenes/disc.json` (diameter 50 mm, load over 4 mm) within 0.6 of the "
-               "radius, against the closed form of even radial pressure with the same load. Errors over the stress at "
-               "the centre, 2P/(pi D t) across (xx) and 6P/(pi D t) along the load (yy).\n";
+  page.text
+      << "\n## Solid disc under load\n\n`data/scenes/disc.json` (diameter 50 mm, load over 4 mm) within 0.6 of the "
+         "radius, against the closed form of even radial pressure with the same load. Errors over the stress at "
+         "the centre, 2P/(pi D t) across (xx) and 6P/(pi D t) along the load (yy).\n";
   Target across{"disc under pressure, across the load", {0.01, 0.03}, {}, ""},
       along{"disc under pressure, along the load", {0.01, 0.03}, {}, ""};
   for (const DiscLoad load : {DiscLoad::pressure, DiscLoad::platens}) {
@@ -170,9 +174,11 @@ void write_loaded_discs(Page& page, const std::vector<double>& spacings) {
       const std::string at = ", " + fixed(1e3 * d, 2) + " mm";
       header.insert(header.end(), {"xx" + at, "yy" + at, "centre" + at});
     }
-    page.text << "\n" << (load == DiscLoad::pressure ? "Under even pressure:" : "Between the bonded platens of the scene, "
-                                                                            "which do not press evenly, so that what is "
-                                                                            "left is theirs:")
+    page.text << "\n"
+              << (load == DiscLoad::pressure ? "Under even pressure:"
+                                             : "Between the bonded platens of the scene, "
+                                               "which do not press evenly, so that what is "
+                                               "left is theirs:")
               << "\n";
     write_table(page.text, header, cells);
   }
@@ -190,8 +196,9 @@ void write_costs(Page& page, bool large) {
     for (const std::size_t which : {std::size_t{0}, std::size_t{6}}) {
       progress("solvers, " + all[which].name + ", " + std::to_string(n) + " rows");
       for (const SolverCost& c : solver_costs(all[which], n, n == 60)) {
-        rows.push_back({all[which].name, std::to_string(c.particles), c.solver, c.solved ? fixed(c.seconds, 2) : "failed",
-                        fixed(c.memory, 0), fixed(1e-6 * c.entries, 1), c.solved ? exponent(c.residual) : "-"});
+        rows.push_back({all[which].name, std::to_string(c.particles), c.solver,
+                        c.solved ? fixed(c.seconds, 2) : "failed", fixed(c.memory, 0), fixed(1e-6 * c.entries, 1),
+                        c.solved ? exponent(c.residual) : "-"});
       }
     }
   }
@@ -202,8 +209,8 @@ void write_costs(Page& page, bool large) {
     if (n > 60 && !large) continue;
     for (const sph::Gradient g : {sph::Gradient::consistent, sph::Gradient::kernel}) {
       const SolverCost c = setup_cost(all[6], n, g);
-      rows.push_back({std::to_string(c.particles), to_string(g), c.solved ? fixed(c.seconds, 2) : "failed",
-                      fixed(c.memory, 0)});
+      rows.push_back(
+          {std::to_string(c.particles), to_string(g), c.solved ? fixed(c.seconds, 2) : "failed", fixed(c.memory, 0)});
     }
   }
   write_table(page.text, {"scattered particles", "gradient", "s", "MiB"}, rows);
@@ -213,7 +220,8 @@ std::string target_table(const std::vector<Target>& targets) {
   std::ostringstream out;
   std::vector<Row> rows;
   for (const Target& t : targets) rows.push_back({t.what, cell(t.wanted), cell(t.reached), t.of, verdict(t.met())});
-  write_table(out, {"rms (worst) error of the stress", "wanted below", "largest of all arrangements", "of", "met"}, rows);
+  write_table(out, {"rms (worst) error of the stress", "wanted below", "largest of all arrangements", "of", "met"},
+              rows);
   return out.str();
 }
 
@@ -236,10 +244,12 @@ std::string draw(const Page& page, const fs::path& folder) {
 
 std::string page_text(const Page& page, const std::string& picture) {
   std::ostringstream out;
-  out << "# Patch tests of the operator\n\nWritten by `fpz-patch-report -o docs`. Static equilibria of the elastic body, "
+  out << "# Patch tests of the operator\n\nWritten by `fpz-patch-report -o docs`. Static equilibria of the elastic "
+         "body, "
          "with the forces of the inner loops themselves, zero-energy control included (`static_equilibrium.hpp`). An "
          "error is the norm of the error of the stress tensor over the largest stress; a cell has the root mean square "
-         "over particles and, in brackets, the worst. What the operator is: [method-operator.md](method-operator.md).\n";
+         "over particles and, in brackets, the worst. What the operator is: "
+         "[method-operator.md](method-operator.md).\n";
   out << target_table(page.targets) << picture << page.text.str();
   return io::wrap_prose(out.str());
 }
@@ -279,7 +289,8 @@ int main(int argc, char** argv) try {
   auto* output = app.add_option("-o,--out", folder,
                                 "folder of operator-patch-tests.md; its picture goes to the subfolder images. Without: "
                                 "the page on standard output");
-  auto* quick_flag = app.add_flag("--quick", reduced, "coarse trials only, write nothing; exit 1 when a target is missed");
+  auto* quick_flag =
+      app.add_flag("--quick", reduced, "coarse trials only, write nothing; exit 1 when a target is missed");
   app.add_flag("--small", small, "no costs at 100,000 particles (those take minutes and gigabytes)");
   output->excludes(quick_flag);
   app.footer(

@@ -3,8 +3,8 @@
 
 #include "fpz/specimen/surface_load.hpp"
 #include "fpz/sph/static_equilibrium.hpp"
-#include "patch_trials.hpp"
 #include "patch_setup.hpp"
+#include "patch_trials.hpp"
 
 namespace fpz::report {
 namespace {

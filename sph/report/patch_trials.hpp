@@ -37,7 +37,8 @@ class ErrorSum {
 
 enum class PatchField { tension, bending };
 
-/// Where the particles are: more than three spacings below the surface (disc: within 0.6 of the radius), or nearer to it.
+/// Where the particles are: more than three spacings below the surface (disc: within 0.6 of the radius), or nearer to
+/// it.
 struct PatchErrors {
   Errors inside, surface;
   Errors ends;  ///< outside the middle half of a strip
