@@ -154,8 +154,8 @@ TEST(CutTip, IsWhereItWasAskedForOnTurnedAndScatteredParticles) {
   }
 }
 
-/// A slot w wide acts as if it were 0.19 w longer (slots of 3 and 6 spacings with 60 across the plate), and the particles
-/// at its end make that 0.2 spacings more.
+/// A slot w wide acts as if it were 0.19 w longer (slots of 3 and 6 spacings with 60 across the plate), and the
+/// particles at its end make that 0.2 spacings more.
 TEST(CutTip, SlotsEndWhereTheyWereAskedFor) {
   for (const double wide : {1.0, 2.0, 3.0}) {
     Range all;

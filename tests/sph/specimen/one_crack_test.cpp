@@ -18,6 +18,7 @@ struct Parted {
 };
 
 constexpr double waist = 0.04;         // m
+constexpr double opened_part = 0.8;    // damage at the end, with which an open crack counts
 constexpr double deflection = 60e-6;   // m
 constexpr double area = waist * 0.05;  // m^2
 
@@ -65,7 +66,7 @@ TEST(OneCrack, TheDogBonePartsOnce) {
   for (const auto& [courant, angle] : {std::pair("0.3", "0"), {"0.5", "0"}, {"0.9", "0"}, {"0.9", "45"}}) {
     const Parted p = part({"method.courant=" + std::string(courant), "arrangement.angle_deg=" + std::string(angle)});
     EXPECT_NEAR(p.work / p.closed_form, 1.0, 0.05) << courant << " " << angle;
-    EXPECT_NEAR(p.length, waist, 0.25 * waist) << courant << " " << angle;  // opening still: counts with its damage
+    EXPECT_NEAR(p.length, opened_part * waist, 0.15 * waist) << courant << " " << angle;
     EXPECT_LT(p.alternation, 0.05) << courant << " " << angle;
   }
 }
@@ -77,7 +78,7 @@ TEST(OneCrack, BesideAPlatenItCostsAsMuch) {
                          "shape.corners=[[-0.03,-0.06],[0.03,-0.06],[0.03,0.048],[0.02,0.052],[0.02,0.06],[-0.02,0.06],"
                          "[-0.02,0.052],[-0.03,0.048]]"});
   EXPECT_NEAR(p.work / p.closed_form, 1.0, 0.05);
-  EXPECT_NEAR(p.length, waist, 0.25 * waist);
+  EXPECT_NEAR(p.length, opened_part * waist, 0.15 * waist);
 }
 
 }  // namespace
