@@ -21,7 +21,7 @@ expected_programs() {
   {
     if has "$1" DRIVER; then echo fpz-driver; fi
     if has "$1" CALIBRATION; then printf '%s\n' fpz-calibrate fpz-notched-reference; fi
-    if has "$1" SPH; then printf '%s\n' fpz-sph fpz-sph-report; fi
+    if has "$1" SPH; then printf '%s\n' fpz-patch-report fpz-sph fpz-sph-report; fi
     if has "$1" BENCH; then printf '%s\n' fpz-bench fpz-speed-report; fi
     if has "$1" BENCH && has "$1" SPH; then echo fpz-sph-bench; fi
     if has "$1" BENCH && has "$1" CALIBRATION; then echo fpz-beam-bench; fi
