@@ -40,7 +40,8 @@ double peak_memory() {
 /// Seconds, memory, entries, residual: what comes back from a process.
 using Figures = std::array<double, 4>;
 
-/// Runs work() in a process of its own, so that peaks of memory do not mix. False when it did not end well.
+/// Runs work() in a process of its own, so that peaks of memory do not mix. False when it did not end well. To be
+/// called before the first parallel loop of this process: a fork has not its threads.
 bool in_own_process(const std::function<Figures()>& work, Figures& figures) {
   int ends[2];
   if (pipe(ends) != 0) return false;
@@ -146,7 +147,7 @@ Solution by_cholmod(const Problem& p, const Sparse& a) {
 
 Solution by_conjugate_gradients(const Problem& p, const Sparse& a) {
   Eigen::ConjugateGradient<Sparse, Eigen::Lower, Eigen::IncompleteCholesky<double>> iteration;
-  iteration.setMaxIterations(3000);
+  iteration.setMaxIterations(1000);
   iteration.setTolerance(1e-10);
   iteration.compute(a);
   Solution s;
@@ -168,7 +169,7 @@ std::vector<NamedSolver> solvers(bool all) {
   if (!all) return list;
   list.push_back({"Eigen SimplicialLDLT, nested dissection", by_dissected_ldlt});
   list.push_back({"Eigen SimplicialLDLT, approximate minimum degree", by_ldlt});
-  list.push_back({"Eigen conjugate gradients, incomplete Cholesky, 3000 iterations at most", by_conjugate_gradients});
+  list.push_back({"Eigen conjugate gradients, incomplete Cholesky, 1000 iterations at most", by_conjugate_gradients});
   return list;
 }
 
