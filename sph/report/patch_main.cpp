@@ -20,7 +20,7 @@ using namespace fpz::report;
 
 void progress(const std::string& what) { std::cerr << what << "\n"; }
 
-std::string cell(const Errors& e) { return percent(e.rms, 2) + " (" + percent(e.worst, 1) + ")"; }
+std::string cell(const Errors& e) { return percent(e.rms, 2) + " (" + percent(e.worst, 2) + ")"; }
 
 Errors larger(const Errors& a, const Errors& b) { return {std::max(a.rms, b.rms), std::max(a.worst, b.worst)}; }
 

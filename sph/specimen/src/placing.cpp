@@ -139,8 +139,9 @@ double first_hit(const Shape& shape, const Point& start, const Point& d, double 
 /// Particles whose cells are known: rings, and a lattice that fills its rectangle.
 bool is_in_order(const Body& body, const Pattern& pattern) {
   if (pattern.move > 0.0 || pattern.kind == Pattern::Kind::scattered) return false;
-  const bool whole = body.holes.empty() && std::all_of(body.notches.begin(), body.notches.end(),
-                                                       [](const Notch& n) { return n.width <= 0.0; });
+  const bool whole =
+      std::holds_alternative<Rectangle>(body.shape) && body.holes.empty() &&
+      std::all_of(body.notches.begin(), body.notches.end(), [](const Notch& n) { return n.width <= 0.0; });
   return pattern.kind == Pattern::Kind::rings || (pattern.fit && pattern.angle == 0.0 && whole);
 }
 
