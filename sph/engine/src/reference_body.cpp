@@ -169,8 +169,8 @@ void ReferenceBody<Dim>::set_correction(std::size_t i, const Full& c) {
 }
 
 /// A jump d gives a row the gradient d (x) g, g being the sum of the bonds' vectors beyond the crack: the direction of
-/// g is that in which the gradient is largest. It counts as far as one direction stands out and the gradient is more
-/// than the rock bears elastically.
+/// g is that in which the gradient, less the elastic one, is largest. It counts as far as one direction stands out and
+/// the gradient is more than the rock bears elastically.
 template <int Dim>
 double ReferenceBody<Dim>::lean_of(std::size_t i, const Full& correction) const {
   const RunData<Dim>& run = this->run_;
@@ -179,17 +179,21 @@ double ReferenceBody<Dim>::lean_of(std::size_t i, const Full& correction) const 
     return Vec<double, Dim>((p.position[0][j] - p.position[0][i]) - (p.start[0][j] - p.start[0][i]),
                             (p.position[1][j] - p.position[1][i]) - (p.start[1][j] - p.start[1][i]));
   });
-  const Full g = product(raw, correction);
+  const Tensor<double, Dim> elastic = elastic_strain<Dim>(run.material.bulk, p.stress_of(i));
+  Full g = product(raw, correction);
+  g = {g.xx - elastic[0], g.xy - elastic[2], g.yx - elastic[2], g.yy - elastic[1]};
   const Symmetric square = {g.xx * g.xx + g.yx * g.yx, g.xy * g.xy + g.yy * g.yy, g.xx * g.xy + g.yx * g.yy};
   const double mean = 0.5 * (square.xx + square.yy), half = 0.5 * (square.xx - square.yy);
   const double radius = std::hypot(half, square.xy);
   const double largest = std::sqrt(mean + radius), other = std::sqrt(std::max(0.0, mean - radius));
-  const double elastic = run.setup.parameters.tensile_strength / run.setup.parameters.young_modulus;
-  if (!(largest > elastic) || !(largest > 2.0 * other)) return 0.0;
+  const double borne =
+      std::max(run.setup.parameters.tensile_strength / run.setup.parameters.young_modulus,
+               std::sqrt(elastic[0] * elastic[0] + elastic[1] * elastic[1] + 2.0 * elastic[2] * elastic[2]));
+  if (!(largest > borne) || !(largest > 2.0 * other)) return 0.0;
   const double angle = 0.5 * std::atan2(square.xy, half);
   const Vec<double, Dim> direction = p.point[i].frame * Vec<double, Dim>(std::cos(angle), std::sin(angle));
   if (std::abs(direction[1]) > std::abs(direction[0])) return 0.0;
-  const double counts = (1.0 - 2.0 * other / largest) * (1.0 - elastic / largest);
+  const double counts = (1.0 - 2.0 * other / largest) * (1.0 - borne / largest);
   return counts * std::clamp(direction[1] / direction[0], -most_lean, most_lean);
 }
 

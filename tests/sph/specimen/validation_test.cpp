@@ -78,6 +78,22 @@ TEST(SemicircularBending, CrackTurnsFromTheNotchToTheLoad) {
   EXPECT_LT(way.dot(on), std::cos(M_PI / 6.0));
 }
 
+/// A plate in compression between bonded platens bears a little less than the closed form of even stress, because the
+/// platens raise the stress at their edges: on the Mohr circle of the first shear plane with p = -r,
+/// sqrt(r^2 + A^2) = c0 cos(phi) - p sin(phi), A = c0 - sigma_t0 tan(phi). What cracked particles make of shear and
+/// pressure must not weaken it.
+TEST(UniaxialCompression, BearsTheLoadOfTheFirstShearPlane) {
+  const Scene scene = read_scene(scenes / "uniaxial_compression.json", {"spacing=0.002"});
+  const Parameters& m = scene.parameters;
+  const double phi = m.friction_angle_deg * M_PI / 180.0;
+  const double a = m.cohesion - m.tensile_strength * std::tan(phi);
+  const double r = (m.cohesion * std::sin(phi) + std::sqrt(m.cohesion * m.cohesion - a * a)) / std::cos(phi);
+  const double closed_form = 2.0 * r * 0.05 * scene.thickness;
+  const double peak = test(scene, 0.7).peak;
+  EXPECT_GT(peak, 0.93 * closed_form);
+  EXPECT_LT(peak, 1.02 * closed_form);
+}
+
 Tested ring(const std::string& ratio) {
   return test(
       read_scene(scenes / "ring.json", {"spacing=0.00125", "shape.diameter_ratio=" + ratio,
