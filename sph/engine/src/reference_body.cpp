@@ -11,6 +11,7 @@ namespace {
 // Openings grow slowly; steps between searches for open bonds, and between changes of H:
 constexpr long long release_interval = 16;
 constexpr long long band_interval = 4;
+constexpr double grown = 0.995;    // integrity over that of the last time, below which a row is straightened again
 constexpr double most_lean = 0.6;  // of ReferenceBody::leans_: 0.53 at a straight surface of a lattice
 }  // namespace
 
@@ -27,6 +28,7 @@ ReferenceBody<Dim>::ReferenceBody(RunData<Dim>& run) : Body<Dim>(run) {
     vectors_ = make_bond_vectors(run, this->lists_);
   }
   leans_.assign(p.count, 0.0);
+  straightened_.assign(p.count, 1.0);
   for (std::size_t i = 0; i < p.count; ++i) write_row(i);
   this->point_bonds();
   if (o.rve_length.rule == RveLength::Rule::band) bands_.emplace(run);
@@ -202,6 +204,9 @@ void ReferenceBody<Dim>::straighten(Index first, Index last) {
   const Particles<Dim>& p = this->run_.particles;
   for (std::size_t i = lanes_begin(first); i < std::min(lanes_begin(last), p.count); ++i) {
     if (p.kind[i] != kind::cracked || p.point[i].crack.integrity < CrackBands<Dim>::least_integrity) continue;
+    // Only while the crack grows: a row that followed the vibrations of a crack would feed them.
+    if (p.point[i].crack.integrity > grown * straightened_[i]) continue;
+    straightened_[i] = p.point[i].crack.integrity;
     const Full c = correction_of_row(moment_of_row(i));
     leans_[i] = lean_of(i, c);
     set_correction(i, c);
@@ -252,13 +257,17 @@ void ReferenceBody<Dim>::release_bonds() {
   }
   std::sort(changed.begin(), changed.end());
   changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
-  for (const std::size_t i : changed) write_row(i);
+  for (const std::size_t i : changed) {
+    leans_[i] = 0.0;  // the bonds that are left see less of the crack, or none of it
+    write_row(i);
+  }
 }
 
 template <int Dim>
 void ReferenceBody<Dim>::save(Writer& archive) const {
   this->transfer_lists(archive, *this);
   archive(leans_);
+  archive(straightened_);
   if (bands_) CrackBands<Dim>::transfer(archive, *bands_);
 }
 
@@ -266,6 +275,7 @@ template <int Dim>
 void ReferenceBody<Dim>::load(Reader& archive) {
   this->transfer_lists(archive, *this);
   archive(leans_);
+  archive(straightened_);
   if (bands_) CrackBands<Dim>::transfer(archive, *bands_);
   // Rows keep their place; only what was cut since the start differs.
   for (std::size_t i = 0; i < this->run_.particles.count; ++i) write_row(i);

@@ -53,6 +53,7 @@ class ReferenceBody final : public Body<Dim> {
   /// where there is no crack. Along the crack its opening has no such derivative; what the row makes of it would be a
   /// shear.
   Field leans_;
+  Field straightened_;                    ///< integrity at which leans_ was found
   std::optional<CrackBands<Dim>> bands_;  ///< none: H is a number or the size
 };
 
