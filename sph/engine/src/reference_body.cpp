@@ -170,9 +170,23 @@ void ReferenceBody<Dim>::set_correction(std::size_t i, const Full& c) {
   p.correction[3][i] = l.yx;
 }
 
+/// Mean angle, rad, by which the uncracked neighbours have turned.
+template <int Dim>
+double ReferenceBody<Dim>::rotation_beside(std::size_t i) const {
+  const Particles<Dim>& p = this->run_.particles;
+  double sum = 0.0, count = 0.0;
+  for (const int neighbour : this->lists_[i]) {
+    const auto j = static_cast<std::size_t>(neighbour);
+    if (p.kind[j] == kind::cracked) continue;
+    sum += p.rotation[1][j];
+    count += 1.0;
+  }
+  return count > 0.0 ? sum / count : 0.0;
+}
+
 /// A jump d gives a row the gradient d (x) g, g being the sum of the bonds' vectors beyond the crack: the direction of
-/// g is that in which the gradient, less the elastic one, is largest. It counts as far as one direction stands out and
-/// the gradient is more than the rock bears elastically.
+/// g is that in which the gradient, less the elastic one and the rotation beside the crack, is largest. It counts as
+/// far as one direction stands out and the gradient is more than the rock bears elastically.
 template <int Dim>
 double ReferenceBody<Dim>::lean_of(std::size_t i, const Full& correction) const {
   const RunData<Dim>& run = this->run_;
@@ -183,7 +197,8 @@ double ReferenceBody<Dim>::lean_of(std::size_t i, const Full& correction) const 
   });
   const Tensor<double, Dim> elastic = elastic_strain<Dim>(run.material.bulk, p.stress_of(i));
   Full g = product(raw, correction);
-  g = {g.xx - elastic[0], g.xy - elastic[2], g.yx - elastic[2], g.yy - elastic[1]};
+  const double turn = rotation_beside(i);
+  g = {g.xx - elastic[0], g.xy - elastic[2] + turn, g.yx - elastic[2] - turn, g.yy - elastic[1]};
   const Symmetric square = {g.xx * g.xx + g.yx * g.yx, g.xy * g.xy + g.yy * g.yy, g.xx * g.xy + g.yx * g.yy};
   const double mean = 0.5 * (square.xx + square.yy), half = 0.5 * (square.xx - square.yy);
   const double radius = std::hypot(half, square.xy);

@@ -42,6 +42,7 @@ class ReferenceBody final : public Body<Dim> {
   void set_correction(std::size_t i, const Full& c);
   /// Finds leans_ of the cracked particles again.
   void straighten(Index first, Index last);
+  [[nodiscard]] double rotation_beside(std::size_t i) const;
   [[nodiscard]] double lean_of(std::size_t i, const Full& correction) const;
   /// Cuts bonds across open cracks (options.release_integrity).
   void release_bonds();
