@@ -170,7 +170,7 @@ void beam(std::ostream& out, const SweepRuns& sweep) {
 
 void write_method(std::ostream& out, const Results& results, const Gallery& gallery) {
   out << "## 4. The method, before and after\n\nBefore: gradients of the kernel, no zero-energy control, the published "
-         "zone, no bonds cut. After: the defaults ([method.md](method.md) says why).\n\n";
+         "zone, no bonds cut; H, tips and volumes as now. After: the defaults ([method.md](method.md) says why).\n\n";
   dogbone(out, results.method_dogbone, gallery);
   out << "\n";
   compression(out, results.method_compression);
