@@ -24,15 +24,6 @@ double slope(const std::vector<double>& way, const std::vector<double>& load) {
   return n >= 2.0 ? (n * xy - x * y) / (n * xx - x * x) : std::nan("");
 }
 
-/// Work of a load along a way up to `end`, J.
-double work_until(double end, const std::vector<double>& way, const std::vector<double>& load) {
-  double work = 0.0;
-  for (std::size_t k = 1; k < load.size() && way[k - 1] < end; ++k) {
-    work += 0.5 * (load[k] + load[k - 1]) * (std::min(way[k], end) - way[k - 1]);
-  }
-  return work;
-}
-
 /// Of the material only these act in pure mode I on a crack without width.
 constexpr const char* acting[] = {"young_modulus", "poisson_ratio", "tensile_strength", "delta0", "normal_stiffness"};
 

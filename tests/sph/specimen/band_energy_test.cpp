@@ -1,7 +1,6 @@
 // What the band rule is for: a crack dissipates G per area, whichever way it runs through the particles.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -35,15 +34,6 @@ TEST(BandEnergy, CrackLengthIsMeasuredRightForNarrowBands) {
   }
 }
 
-/// Work of the load at half depth up to a deflection, J.
-double work_until(double end, const std::vector<double>& deflection, const std::vector<double>& load) {
-  double work = 0.0;
-  for (std::size_t k = 1; k < load.size() && deflection[k - 1] < end; ++k) {
-    work += 0.5 * (load[k] + load[k - 1]) * (std::min(deflection[k], end) - deflection[k - 1]);
-  }
-  return work;
-}
-
 /// The notched beam at 4 mm takes the work of finite elements with a straight cohesive crack
 /// until it has lost nine tenths of its load: neither the program's own crack nor its own energies are asked. On a
 /// lattice at 10 to 20 degrees the crack follows the lattice, an inclined crack costs less, and 7 % are missing.
@@ -51,7 +41,7 @@ TEST(BandEnergy, TheBeamTakesTheWorkOfFiniteElements) {
   constexpr double end = 60e-6;
   const std::filesystem::path data = FPZ_DATA_DIR;
   const auto curve = fpz::report::read_reference_curve(data / "reference/beam_3pb_rollers_8mm.csv", {});
-  const double expected = work_until(end, curve.deflection_mid_depth, curve.load);
+  const double expected = fpz::report::work_until(end, curve.deflection_mid_depth, curve.load);
   for (const std::string arrangement : {R"({"type": "lattice"})", R"({"type": "lattice", "angle_deg": 45})",
                                         R"({"type": "scattered", "seed": 1})", R"({"type": "scattered", "seed": 4})"}) {
     const Scene scene =
@@ -66,7 +56,7 @@ TEST(BandEnergy, TheBeamTakesTheWorkOfFiniteElements) {
       deflection.push_back(specimen.gauges.at("deflection").value(run, scene.thickness));
       load.push_back(specimen.gauges.at("load").value(run, scene.thickness));
     }
-    EXPECT_NEAR(work_until(end, deflection, load) / expected, 1.0, 0.05) << arrangement;
+    EXPECT_NEAR(fpz::report::work_until(end, deflection, load) / expected, 1.0, 0.05) << arrangement;
   }
 }
 
