@@ -54,8 +54,8 @@ sph::StaticLoad<2> move_platens(const sph::RunSetup<2>& s) {
   for (const int g : s.arrangement.group) {
     Point u = Point::Zero();
     for (int c = 0; g >= 0 && c < 2; ++c) {
-      const auto& motion = s.groups[static_cast<std::size_t>(g)].motion[static_cast<std::size_t>(c)];
-      if (motion) u[c] = 1e-6 * motion->speed;
+      const auto& drive = s.groups[static_cast<std::size_t>(g)].drive[static_cast<std::size_t>(c)];
+      if (drive) u[c] = 1e-6 * drive->table.value.back();
     }
     load.displacement.push_back(u);
   }

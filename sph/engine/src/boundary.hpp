@@ -9,9 +9,9 @@
 
 namespace fpz::sph::detail {
 
-/// Acts on the velocities at n + 1/2 that the forces at n have made. A force F (N) adds F/m to the acceleration of a
-/// particle and step F/m to its velocity; a prescribed velocity takes the place of what is there, and the acceleration
-/// becomes what that took. Boundaries act in the order of the set-up's groups.
+/// Acts in two ways. push() adds forces to those of the body before the velocities are made; act() changes the
+/// velocities at n + 1/2 that all forces at n have made: a prescribed velocity takes the place of what is there, and
+/// the acceleration becomes what that took. Boundaries act in the order of the set-up: groups, then loads.
 template <int Dim>
 class Boundary {
  public:
@@ -20,14 +20,24 @@ class Boundary {
   Boundary(const Boundary&) = delete;
   Boundary& operator=(const Boundary&) = delete;
 
+  /// Adds its forces at n to RunData::outer_force, N, in positions that are at n; their work goes to the ledger.
+  virtual void push() {}
   /// Velocities to n + 1/2 over `step` (s; half a time step at the start); its work goes to the ledger.
-  virtual void act(double step) = 0;
+  virtual void act(double /*step*/) {}
   /// Its homogeneous form, for the frequencies of the body: zero velocity where it is prescribed.
   virtual void hold() {}
   /// Force that it exerts at n, N (per metre of thickness in 2-D).
   [[nodiscard]] virtual Vec<double, Dim> reaction() const = 0;
+  /// Velocity at n + 1/2 of what it drives, m/s; zero in free components.
+  [[nodiscard]] virtual Vec<double, Dim> velocity() const { return Vec<double, Dim>::Zero(); }
   /// Longest time step that is stable for it, s.
   [[nodiscard]] virtual double stable_step() const { return std::numeric_limits<double>::infinity(); }
+  /// Changes what drives a component, from n on. Throws std::invalid_argument when it was free.
+  virtual void set_drive(std::size_t component, const Drive& drive);
+  /// The velocity of a component that is steered, m/s, from n on.
+  virtual void steer(std::size_t component, double velocity);
+  /// Changes the factor of a load, from n on.
+  virtual void set_factor(const TimeTable& factor);
   /// Its state, for snapshots.
   virtual void save(Writer& archive) const = 0;
   virtual void load(Reader& archive) = 0;
@@ -39,7 +49,7 @@ class Boundary {
 template <int Dim>
 using Boundaries = std::vector<std::unique_ptr<Boundary<Dim>>>;
 
-/// One boundary for each group of the set-up.
+/// One boundary for each group of the set-up, then one for each load.
 template <int Dim>
 [[nodiscard]] Boundaries<Dim> make_boundaries(RunData<Dim>& run);
 

@@ -228,8 +228,8 @@ Free fit_normal(const std::vector<Point>& points, double window, double spacing)
 bool is_prescribed(const RunData<2>& run, std::size_t i) {
   const int g = run.setup.arrangement.group[run.particles.id[i]];
   if (g < 0) return false;
-  const auto& motion = run.setup.groups[static_cast<std::size_t>(g)].motion;
-  return std::any_of(motion.begin(), motion.end(), [](const auto& m) { return m.has_value(); });
+  const auto& drive = run.setup.groups[static_cast<std::size_t>(g)].drive;
+  return std::any_of(drive.begin(), drive.end(), [](const auto& d) { return d.has_value(); });
 }
 
 /// The surface as the particles show it: those with a wide angle without a neighbour lie on it.

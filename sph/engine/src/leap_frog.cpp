@@ -2,6 +2,7 @@
 // ahead. Stress and density go from full step to full step with the velocity between: one step takes the place of the
 // half steps of the start (eq 22, eq 24), the full ones (eq 25, eq 27) and the extrapolations (eq 28, eq 30). Only the
 // velocity that the viscosity sees is extrapolated (eq 29, in the drift).
+#include <algorithm>
 #include <cmath>
 
 #include "engine.hpp"
@@ -47,6 +48,10 @@ void Engine<Dim>::kick(double step) {
   view.work_before = run.started ? 0.5 * run.dt : 0.0;
   view.work_after = 0.5 * run.dt;
   if (control) control->act();
+  if (view.pushed) {
+    for (Field& f : run.outer_force) std::fill(f.begin(), f.end(), 0.0);
+    for (const auto& boundary : boundaries) boundary->push();
+  }
   body->force(view);
   for (const auto& boundary : boundaries) boundary->act(step);
 }

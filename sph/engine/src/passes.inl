@@ -111,8 +111,8 @@ FPZ_LANE void account(double* total, double* next, Index b, const double (&befor
   next[b] = lane_sum(after);
 }
 
-/// Velocity to n + 1/2 from the force at n (eq 23 at the start, then eq 26), with gravity, zero-energy control and
-/// local damping.
+/// Velocity to n + 1/2 from the force at n (eq 23 at the start, then eq 26), with gravity, zero-energy control, forces
+/// of boundaries and local damping.
 FPZ_LANE void kick(const V& v, Index b, double (&fx)[n], double (&fy)[n]) {
   const Index o = b * n;
   double slow[n], before[n], after[n];
@@ -125,13 +125,17 @@ FPZ_LANE void kick(const V& v, Index b, double (&fx)[n], double (&fy)[n]) {
       gx += v.zero_energy_force[0][i];
       gy += v.zero_energy_force[1][i];
     }
+    if (v.pushed) {
+      gx += v.outer_force[0][i];
+      gy += v.outer_force[1][i];
+    }
     const double ux = v.velocity[0][i];
     const double uy = v.velocity[1][i];
     double dx = 0.0;
     double dy = 0.0;
     if (v.damped) {
-      dx = -v.damping[0][i] * __builtin_fabs(gx) * (ux > 0.0 ? 1.0 : ux < 0.0 ? -1.0 : 0.0);
-      dy = -v.damping[1][i] * __builtin_fabs(gy) * (uy > 0.0 ? 1.0 : uy < 0.0 ? -1.0 : 0.0);
+      dx = -(v.damping[0][i] * v.damping_part) * __builtin_fabs(gx) * (ux > 0.0 ? 1.0 : ux < 0.0 ? -1.0 : 0.0);
+      dy = -(v.damping[1][i] * v.damping_part) * __builtin_fabs(gy) * (uy > 0.0 ? 1.0 : uy < 0.0 ? -1.0 : 0.0);
     }
     const double ax = (gx + dx) * v.inverse_mass[i];
     const double ay = (gy + dy) * v.inverse_mass[i];

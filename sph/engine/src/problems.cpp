@@ -95,6 +95,35 @@ void check_cuts(const Arrangement<Dim>& a, Messages& m) {
   }
 }
 
+template <int Dim>
+void check_drives(const Group<Dim>& g, Messages& m) {
+  for (const std::optional<Drive>& drive : g.drive) {
+    if (!drive) continue;
+    const std::string table = problem_of(drive->table);
+    m.require(table.empty(), "drive of group " + g.name + ": its table " + table);
+    const double stiffness = drive->machine_stiffness;
+    m.require(std::isfinite(stiffness) && stiffness >= 0.0,
+              number("machine_stiffness of group " + g.name, stiffness, "zero or positive"));
+    m.require(drive->kind != Drive::Kind::force || stiffness == 0.0,
+              number("machine_stiffness of group " + g.name, stiffness, "zero where a force drives it"));
+  }
+}
+
+template <int Dim>
+void check_load(const Load<Dim>& load, const Arrangement<Dim>& a, Messages& m) {
+  const std::string who = "load " + load.name + ": ";
+  const std::string table = problem_of(load.factor);
+  m.require(table.empty(), who + "its factor " + table);
+  m.require(load.force.size() == a.size(), who + "must have a force for each particle");
+  if (load.force.size() != a.size() || a.group.size() != a.size()) return;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (!is_finite(load.force[i]))
+      m.require(false, who + "the force on particle " + std::to_string(i) + " is not finite");
+    m.require(a.group[i] < 0 || load.force[i].isZero(0.0),
+              who + "acts on particle " + std::to_string(i) + ", which belongs to a group");
+  }
+}
+
 }  // namespace
 
 template <int Dim>
@@ -104,14 +133,8 @@ std::vector<std::string> problems(const RunSetup<Dim>& s) {
   check_arrangement(s, m);
   check_cuts(s.arrangement, m);
   m.require((Dim == 3) == (s.setting == Setting::three_d), "setting: must be plane strain or plane stress in 2-D");
-  for (const Group<Dim>& g : s.groups) {
-    for (const std::optional<Motion>& motion : g.motion) {
-      if (!motion) continue;
-      m.require(std::isfinite(motion->speed), number("speed of group " + g.name, motion->speed, "finite"));
-      m.require(std::isfinite(motion->ramp) && motion->ramp >= 0.0,
-                number("ramp of group " + g.name, motion->ramp, "zero or positive"));
-    }
-  }
+  for (const Group<Dim>& g : s.groups) check_drives(g, m);
+  for (const Load<Dim>& load : s.loads) check_load(load, s.arrangement, m);
   Parameters p = s.parameters;
   p.rve_length = 1e-6;  // the particles carry their own
   const Validation v = validate(p, s.setting);

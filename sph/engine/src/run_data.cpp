@@ -72,7 +72,7 @@ void RunData<Dim>::place_particles() {
     for (std::size_t c = 0; c < dimensions; ++c) {
       p.start[c][i] = p.position[c][i] = a.position[k][static_cast<int>(c)];
       if (!setup.velocity.empty()) p.velocity[c][i] = setup.velocity[k][static_cast<int>(c)];
-      damping[c][i] = o.damping;
+      damping[c][i] = 1.0;
     }
     p.volume[i] = a.volume[k];
     p.density[i] = setup.parameters.density;
@@ -100,7 +100,7 @@ void RunData<Dim>::set_constants() {
   v.rest_density = setup.parameters.density;
   v.sound_speed = std::sqrt(setup.parameters.young_modulus / setup.parameters.density);
   v.top_speed = std::sqrt((v.lambda + 2.0 * v.mu) / setup.parameters.density);
-  v.damped = o.damping > 0.0;
+  set_damping(o.damping);
   v.smoothing = h;
   v.inverse_smoothing = 1.0 / h;
   v.slope_norm = kernel_norm<Dim>(o.kernel, h) / (h * h);

@@ -33,9 +33,10 @@ struct RunData {
 
   Particles<Dim> particles;
   std::vector<std::size_t> slot_of;
-  Fields<Dim> damping;  ///< local damping per component, zero where the velocity is prescribed
-  Mask flagged;         ///< of the last pass: the library must update the particle
-  Mask bad;             ///< of the last pass, per block: a velocity is out of bounds
+  Fields<Dim> damping;      ///< 1 where local damping acts, 0 where the component is driven
+  Fields<Dim> outer_force;  ///< of boundaries that push at n, N
+  Mask flagged;             ///< of the last pass: the library must update the particle
+  Mask bad;                 ///< of the last pass, per block: a velocity is out of bounds
   WorkLedger<Dim> ledger;
 
   const Passes<Dim>* passes = nullptr;
@@ -47,6 +48,11 @@ struct RunData {
 
   /// s; before the first step.
   void set_time_step(double step) { dt = view.step = step; }
+  /// Options::damping from now on. The work of the last step's damping is still counted when it ends.
+  void set_damping(double part) {
+    view.damping_part = part;
+    view.damped = view.damped || part > 0.0;
+  }
   [[nodiscard]] double now() const { return static_cast<double>(steps) * dt; }
 
   template <class Self, class Visit>
@@ -54,6 +60,7 @@ struct RunData {
     using V = View<Dim>;
     visit_fields(self.particles, visit);
     visit(FieldInfo{"damping", Extent::particle, Keep::constant}, self.damping, &V::damping);
+    visit(FieldInfo{"outer_force", Extent::particle, Keep::passing}, self.outer_force, &V::outer_force);
     visit(FieldInfo{"flagged", Extent::particle, Keep::passing}, self.flagged, &V::flagged);
     visit(FieldInfo{"bad", Extent::block, Keep::passing}, self.bad, &V::bad);
     WorkLedger<Dim>::fields(self.ledger, visit);

@@ -78,6 +78,43 @@ Vec<double, Dim> Simulation<Dim>::reaction(std::size_t group) const {
   return engine_->boundaries.at(group)->reaction();
 }
 template <int Dim>
+Vec<double, Dim> Simulation<Dim>::velocity(std::size_t group) const {
+  return engine_->boundaries.at(group)->velocity();
+}
+template <int Dim>
+Vec<double, Dim> Simulation<Dim>::load(std::size_t index) const {
+  return engine_->boundaries.at(engine_->run.setup.groups.size() + index)->reaction();
+}
+
+namespace {
+
+void require_usable(const TimeTable& table) {
+  const std::string problem = problem_of(table);
+  if (!problem.empty()) throw std::invalid_argument("the table " + problem);
+}
+
+}  // namespace
+
+template <int Dim>
+void Simulation<Dim>::set_drive(std::size_t group, std::size_t component, const Drive& drive) {
+  require_usable(drive.table);
+  engine_->boundaries.at(group)->set_drive(component, drive);
+}
+template <int Dim>
+void Simulation<Dim>::steer(std::size_t group, std::size_t component, double velocity) {
+  engine_->boundaries.at(group)->steer(component, velocity);
+}
+template <int Dim>
+void Simulation<Dim>::set_factor(std::size_t load, const TimeTable& factor) {
+  require_usable(factor);
+  engine_->boundaries.at(engine_->run.setup.groups.size() + load)->set_factor(factor);
+}
+template <int Dim>
+void Simulation<Dim>::set_damping(double part) {
+  engine_->run.set_damping(part);
+}
+
+template <int Dim>
 Energies Simulation<Dim>::energies() const {
   return engine_->energies();
 }

@@ -10,7 +10,7 @@ namespace fpz::sph {
 
 namespace {
 
-constexpr std::uint64_t magic = 0x354850535a5046ULL;  // "FPZSPH5"; the last figure is the version
+constexpr std::uint64_t magic = 0x364850535a5046ULL;  // "FPZSPH6"; the last figure is the version
 
 /// Adds the options on which the result depends.
 struct OptionPrint {
@@ -49,12 +49,12 @@ std::uint64_t fingerprint(const RunSetup<Dim>& s) {
   for (const Cut<Dim>& cut : s.arrangement.cuts) w(cut.corner), w(cut.is_tip);
   for (const Group<Dim>& g : s.groups) {
     w(g.elastic);
-    for (const std::optional<Motion>& m : g.motion) {
-      w(m.has_value());
-      w(m ? m->speed : 0.0);
-      w(m ? m->ramp : 0.0);
+    for (const std::optional<Drive>& d : g.drive) {
+      w(d.has_value());
+      if (d) w(*d);
     }
   }
+  for (const Load<Dim>& load : s.loads) w(load.force), w(load.factor);
   return fnv1a(w.bytes());
 }
 
@@ -78,6 +78,8 @@ template <class A, class R>
 void transfer_run(A& archive, R& run) {
   archive(run.steps);
   archive(run.started);
+  archive(run.view.damping_part);
+  archive(run.view.damped);
   std::remove_cvref_t<decltype(run.ledger)>::transfer_sums(archive, run.ledger);
   std::remove_cvref_t<R>::fields(run, Transfer<A>{archive});
   for (std::size_t i = 0; i < run.particles.count; ++i) {

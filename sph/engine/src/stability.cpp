@@ -19,6 +19,7 @@ void Engine<Dim>::accelerate_from_rest() {
   View<Dim> v = run.view;
   v.step = 1.0;
   v.damped = false;
+  v.pushed = false;
   for (std::size_t c = 0; c < run.dimensions; ++c) v.gravity[c] = 0.0;
   for (Field& g : p.gradient) std::fill(g.begin(), g.end(), 0.0);
   run.for_chunks([&](Index first, Index last) { run.passes->gradient_reference(v, first, last); });
@@ -74,8 +75,13 @@ double Engine<Dim>::stability_limit() {
   Writer before(own);
   save(before);
   const std::vector<unsigned char> state = std::move(before).sealed();
-  double limit = 2.0 / largest_frequency();
-  for (const auto& boundary : boundaries) limit = std::min(limit, boundary->stable_step());
+  const double body_limit = 2.0 / largest_frequency();
+  double limit = body_limit;
+  // The stiffness of a boundary comes on top of the body's: squares of frequencies add up at most.
+  for (const auto& boundary : boundaries) {
+    const double ratio = body_limit / boundary->stable_step();
+    limit = std::min(limit, body_limit / std::sqrt(1.0 + ratio * ratio));
+  }
   Reader back(state, own);
   load(back);
   return limit;

@@ -1,6 +1,7 @@
 #include "fpz/sph/static_equilibrium.hpp"
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -20,6 +21,12 @@ void require_sound(const RunSetup<Dim>& setup) {
   if (setup.options.configuration != Configuration::reference || setup.options.momentum != MomentumForm::adjoint) {
     text += "static equilibrium needs the configuration reference and the momentum form adjoint\n";
   }
+  for (const Group<Dim>& g : setup.groups) {
+    if (std::any_of(g.drive.begin(), g.drive.end(), [](const auto& d) { return d && d->yields(); })) {
+      text += "static equilibrium knows no group that yields to forces: " + g.name + "\n";
+    }
+  }
+  if (!setup.loads.empty()) text += "static equilibrium takes its forces from StaticLoad, not from loads\n";
   if (!text.empty()) throw std::invalid_argument(text.substr(0, text.size() - 1));
 }
 

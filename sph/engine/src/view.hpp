@@ -46,7 +46,8 @@ struct View {
   double* zero_energy_gradient[d * d] = {};
   double* zero_energy_force[d] = {};
   double* rotation[2] = {};
-  const double* damping[d] = {};  // per component: zero where the velocity is prescribed
+  const double* damping[d] = {};      // per component: 1, zero where the velocity is driven
+  const double* outer_force[d] = {};  // of boundaries that push
   unsigned char* flagged = nullptr;
 
   // Per block: work so far, and what the force at n will have done by n + 1/2.
@@ -66,7 +67,9 @@ struct View {
   double gravity[d] = {};
   double weight_scale = 1.0;  // gravity acts on mass * this
   double top_speed = 0.0;     // m/s: faster than this is an explosion
+  double damping_part = 0.0;  // of the resultant force
   bool damped = false;
+  bool pushed = false;  // there is an outer force
   double smoothing = 0.0, inverse_smoothing = 0.0;
   double slope_norm = 0.0;  // kernel_norm / h^2
   double reference_shape = 1.0;

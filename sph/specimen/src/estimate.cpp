@@ -20,8 +20,9 @@ long long steps_to_deflection(const Scene& scene, double time_step) {
   double time = scene.stop.time;
   double speed = 0.0, ramp = 0.0;
   for (const Boundary& b : scene.boundaries) {
-    for (const auto& v : b.velocity) {
-      if (v && std::abs(v->speed) > speed) speed = std::abs(v->speed), ramp = v->ramp;
+    for (const auto& a : b.drive) {
+      if (!a || a->kind != sph::Drive::Kind::velocity || a->course.largest() <= speed) continue;
+      speed = a->course.largest(), ramp = a->course.duration();
     }
   }
   if (scene.stop.deflection && speed > 0.0) time = std::min(time, *scene.stop.deflection / speed + 0.5 * ramp);

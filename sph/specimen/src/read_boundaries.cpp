@@ -4,27 +4,13 @@
 namespace fpz::specimen::detail {
 namespace {
 
-constexpr std::array<std::string_view, 8> boundary_keys = {"name",   "at",  "direction", "width",
-                                                           "layers", "fit", "velocity",  "elastic"};
-constexpr std::array<std::string_view, 2> components = {"x", "y"};
-constexpr std::array<std::string_view, 2> motion_keys = {"speed", "ramp"};
-
-sph::Motion read_motion(const InputReader& r, const Place& p) {
-  sph::Motion m;
-  if (p.value().is(JsonValue::Kind::number)) {
-    m.speed = r.number(p).value_or(0.0);
-    return m;
-  }
-  if (!r.object(p, "\"speed\" and \"ramp\"")) return m;
-  r.known_keys(p, motion_keys);
-  with_required(r, p, "speed", [&](const Place& q) { m.speed = r.number(q).value_or(0.0); });
-  with(p, "ramp", [&](const Place& q) { m.ramp = not_negative(r, q).value_or(0.0); });
-  return m;
-}
+constexpr std::array<std::string_view, 11> boundary_keys = {"name",         "at",    "direction",        "width",
+                                                            "layers",       "fit",   "elastic",          "velocity",
+                                                            "displacement", "force", "machine_stiffness"};
 
 Boundary read_boundary(const InputReader& r, const Place& place, const Scene& scene) {
   Boundary b;
-  if (!r.object(place, "\"name\", \"at\", \"direction\", \"width\" and \"velocity\"")) return b;
+  if (!r.object(place, "\"name\", \"at\", \"direction\", \"width\" and how it is driven")) return b;
   r.known_keys(place, boundary_keys);
   with_required(r, place, "name", [&](const Place& p) { b.name = r.text(p, longest_name).value_or(""); });
   for (const Boundary& other : scene.boundaries) {
@@ -44,13 +30,9 @@ Boundary read_boundary(const InputReader& r, const Place& place, const Scene& sc
     b.platen = platen;
   }
   with(place, "elastic", [&](const Place& p) { b.elastic = boolean(r, p).value_or(true); });
-  with_required(r, place, "velocity", [&](const Place& p) {
-    if (!r.object(p, "the prescribed components, \"x\" or \"y\" (the others are free)")) return;
-    r.known_keys(p, components);
-    for (std::size_t c = 0; c < 2; ++c) {
-      with(p, components[c], [&](const Place& q) { b.velocity[c] = read_motion(r, q); });
-    }
-  });
+  if (!read_actuations(r, place, true, b.drive)) {
+    r.problem(place, "needs \"velocity\", \"displacement\" or \"force\": how it is driven");
+  }
   return b;
 }
 

@@ -84,6 +84,20 @@ template <class Kind, std::size_t N>
 [[nodiscard]] std::optional<Shape> read_shape(const InputReader& r, const Place& place);
 void read_body(const InputReader& r, const Place& root, Scene& scene);
 void read_arrangement(const InputReader& r, const Place& root, Scene& scene);
+
+/// What a quantity over time may be.
+struct CourseRules {
+  std::string_view value;      ///< the word for a value that is reached by a ramp: "speed", "value"
+  bool begins_at_zero = true;  ///< it may not jump when the run begins
+  bool first_stage = true;     ///< nothing was before it
+  bool relative = false;       ///< it counts from the begin of its stage
+  static constexpr std::array<std::string_view, 1> words = {"hold"};
+};
+[[nodiscard]] TimeCourse read_time_course(const InputReader& r, const Place& place, const CourseRules& rules);
+/// The driven components of a boundary, and the machine that drives them, in place of those in `drive`. False when it
+/// names none.
+bool read_actuations(const InputReader& r, const Place& boundary, bool first_stage, Actuations& drive);
+
 void read_boundaries(const InputReader& r, const Place& place, Scene& scene);
 void read_method(const InputReader& r, const Place& place, sph::Options<2>& options);
 void read_gauges(const InputReader& r, const Place& place, Scene& scene);

@@ -99,7 +99,9 @@ Specimen make_specimen(const Scene& scene) {
   for (const Boundary& b : scene.boundaries) {
     sph::Group<2> group;
     group.name = b.name;
-    group.motion = b.velocity;
+    for (std::size_t c = 0; c < 2; ++c) {
+      if (b.drive[c]) group.drive[c] = b.drive[c]->starting(0.0, 0.0, 0.0, scene.thickness);
+    }
     group.elastic = b.elastic;
     s.setup.groups.push_back(group);
   }

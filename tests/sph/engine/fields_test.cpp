@@ -67,10 +67,13 @@ std::vector<unsigned char> saved(const Engine<2>& e) {
 
 class Fields : public testing::TestWithParam<std::size_t> {
  protected:
-  /// Cracks, damping, gravity and, in the reference configuration, zero-energy control.
+  /// Cracks, damping, gravity, a load and, in the reference configuration, zero-energy control.
   static RunSetup<2> setup() {
     RunSetup<2> s = torn(variants[GetParam()]);
     s.options.gravity = vec(50.0, -1e3);
+    Load<2> load{"push", {}, TimeTable::rise(0.0, 1.0, 1e-5)};
+    for (const int g : s.arrangement.group) load.force.push_back(vec(0.0, g < 0 ? 1.0 : 0.0));
+    s.loads.push_back(load);
     return s;
   }
 };
@@ -108,7 +111,7 @@ TEST_P(Fields, AreAllThereAfterARestore) {
     passing += field.keep == Keep::passing ? 1U : 0U;
     EXPECT_EQ(same_bits(field, expected.at(name)), field.keep != Keep::passing) << name;
   }
-  EXPECT_EQ(passing, continued.control ? 4U : 2U);
+  EXPECT_EQ(passing, continued.control ? 5U : 3U);
   advance(whole, 20);
   advance(continued, 20);
   const auto later = fields_of(whole);

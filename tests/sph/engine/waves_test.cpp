@@ -43,13 +43,13 @@ double wave_error(int columns, Configuration configuration) {
   const Bar bar(columns, configuration);
   Simulation<2> run(bar.setup);
   advance(run, static_cast<long long>(0.6 * Bar::length / bar.celerity / run.time_step()));
-  const Motion drive{Bar::speed, Bar::ramp};
+  const Drive drive = Motion{Bar::speed, Bar::ramp};
   const Particles<2>& p = run.particles();
   double worst = 0.0;
   for (std::size_t i = 0; i < p.count; ++i) {
     const double arrival = (p.start[0][i] - bar.driven_at) / bar.celerity;
     const double time = run.time() + 0.5 * run.time_step();  // velocities are half a step ahead
-    worst = std::max(worst, std::abs(p.velocity[0][i] - drive.velocity(time - arrival)));
+    worst = std::max(worst, std::abs(p.velocity[0][i] - drive.table.at(time - arrival)));
   }
   return worst / Bar::speed;
 }

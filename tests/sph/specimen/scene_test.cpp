@@ -44,7 +44,7 @@ TEST(Scene, OverridesChangeAnyEntry) {
   EXPECT_EQ(s.options.configuration, fpz::sph::Configuration::updated);
   EXPECT_NEAR(s.body.notches[0].tip[0], -0.004, 1e-12);
   EXPECT_EQ(s.options.rve_length.rule, fpz::sph::RveLength::Rule::number);
-  EXPECT_EQ(s.boundaries[0].velocity[1]->speed, -0.5);
+  EXPECT_EQ(s.boundaries[0].drive[1]->course.value, -0.5);
   EXPECT_EQ(*s.stop.deflection, 1e-5);
   EXPECT_EQ(s.parameters.cohesion, 2.9e6);
 }

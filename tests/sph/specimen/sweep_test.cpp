@@ -109,10 +109,10 @@ TEST(SweepFile, EntriesApplyInTheirOrder) {
   ASSERT_EQ(sweep.runs.size(), 4u);
   EXPECT_EQ(sweep.runs[0].scene.stop.time, 2e-4);
   EXPECT_EQ(sweep.runs[0].scene.spacing, 0.008);
-  EXPECT_EQ(sweep.runs[0].scene.boundaries[0].velocity[1]->speed, -0.05);
+  EXPECT_EQ(sweep.runs[0].scene.boundaries[0].drive[1]->course.value, -0.05);
   EXPECT_EQ(sweep.runs[0].value, -0.05);
   EXPECT_EQ(sweep.runs[3].scene.spacing, 0.004);
-  EXPECT_EQ(sweep.runs[3].scene.boundaries[0].velocity[1]->speed, -0.2);
+  EXPECT_EQ(sweep.runs[3].scene.boundaries[0].drive[1]->course.value, -0.2);
   EXPECT_EQ(sweep.runs[3].scene.setting, fpz::Setting::plane_stress);
   EXPECT_EQ(sweep.runs[3].value, 3.0);
   EXPECT_EQ(sweep.runs[3].folder, fs::path("plane_stress/fine"));

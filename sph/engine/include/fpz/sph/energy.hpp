@@ -10,7 +10,7 @@ namespace fpz::sph {
 /// Joule (per metre of thickness in 2-D). The balance is external = elastic + kinetic + fracture + zero_energy +
 /// viscous + damping + artificial, all counted from the start; kinetic is the difference from the start.
 struct Energies {
-  double external = 0.0;     ///< work of prescribed motions and of gravity
+  double external = 0.0;     ///< work of boundaries, loads and gravity
   double elastic = 0.0;      ///< stored in bulk and cohesive zones
   double kinetic = 0.0;      ///< sum m v(n-1/2).v(n+1/2)/2, the leap-frog's own invariant
   double fracture = 0.0;     ///< dissipated by the cohesive zones
@@ -37,7 +37,7 @@ struct EnergyTerm {
 /// The one list of the terms, in the order in which they are added and reported.
 // clang-format off
 inline constexpr std::array<EnergyTerm, 9> energy_terms = {{
-    {"external",      &Energies::external,      EnergyRole::source,  "work of prescribed motions and of gravity"},
+    {"external",      &Energies::external,      EnergyRole::source,  "work of boundaries, loads and gravity"},
     {"elastic",       &Energies::elastic,       EnergyRole::sink,    "stored in the bulk and in cohesive zones"},
     {"kinetic",       &Energies::kinetic,       EnergyRole::sink,    "kinetic, of the leap-frog"},
     {"kinetic_start", &Energies::kinetic_start, EnergyRole::initial, "kinetic at the start"},

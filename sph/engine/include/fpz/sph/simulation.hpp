@@ -27,6 +27,7 @@ template <int Dim>
 struct RunSetup {
   Arrangement<Dim> arrangement;
   std::vector<Group<Dim>> groups;
+  std::vector<Load<Dim>> loads;
   Parameters parameters;  ///< rve_length is ignored: options.rve_length decides
   Setting setting = Setting::plane_strain;
   Options<Dim> options;
@@ -76,6 +77,20 @@ class Simulation {
   /// Force that keeps a group on its motion, N (per metre of thickness in 2-D), from the momentum balance of its
   /// particles at the last full step; zero in free components.
   [[nodiscard]] Vec<double, Dim> reaction(std::size_t group) const;
+  /// Velocity that a group has by its drives, m/s, half a step ahead; zero in free components.
+  [[nodiscard]] Vec<double, Dim> velocity(std::size_t group) const;
+  /// Present factor of a load times the sum of its forces, N (per metre of thickness in 2-D).
+  [[nodiscard]] Vec<double, Dim> load(std::size_t index) const;
+
+  /// Changes what drives a component of a group from now on; its force goes on without a jump where the machine has a
+  /// stiffness. Throws std::invalid_argument for components that are free, and for tables with problems.
+  void set_drive(std::size_t group, std::size_t component, const Drive& drive);
+  /// The velocity of a steered component from now on, m/s.
+  void steer(std::size_t group, std::size_t component, double velocity);
+  /// Changes the factor of a load from now on.
+  void set_factor(std::size_t load, const TimeTable& factor);
+  /// Changes Options::damping from now on.
+  void set_damping(double part);
   /// Sums over all particles, in a fixed order.
   [[nodiscard]] Energies energies() const;
   [[nodiscard]] std::size_t cracked() const;

@@ -11,9 +11,9 @@
 #include "fpz/io/json_locator.hpp"
 #include "fpz/parameters.hpp"
 #include "fpz/specimen/gauge.hpp"
+#include "fpz/specimen/loading.hpp"
 #include "fpz/specimen/placing.hpp"
 #include "fpz/specimen/toughness.hpp"
-#include "fpz/sph/group.hpp"
 #include "fpz/sph/options.hpp"
 
 namespace fpz::specimen {
@@ -27,7 +27,7 @@ struct ParticleFile {
 struct Boundary {
   std::string name;
   std::optional<Platen> platen;  ///< none: its particles come from the particle file
-  std::array<std::optional<sph::Motion>, 2> velocity;
+  Actuations drive;              ///< per component; none: free
   bool elastic = true;
 };
 

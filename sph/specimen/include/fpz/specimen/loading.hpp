@@ -1,0 +1,46 @@
+// How a scene drives its boundaries over time.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+
+#include "fpz/sph/group.hpp"
+
+namespace fpz::specimen {
+
+/// A quantity over time as a scene states it; the clock is that of the stage. Forces are for the whole thickness.
+struct TimeCourse {
+  enum class Form : std::uint8_t {
+    rise,   ///< smoothly from what it is when the stage begins to `value`, within `ramp`, and stays
+    table,  ///< as in `table`
+    hold    ///< stays what it is when the stage begins
+  };
+  Form form = Form::rise;
+  double value = 0.0;
+  double ramp = 0.0;  ///< s
+  sph::TimeTable table;
+
+  /// As a table that begins at `time` (s), where the quantity is `present`.
+  [[nodiscard]] sph::TimeTable starting(double time, double present) const;
+  /// s after the begin: nothing changes from there on.
+  [[nodiscard]] double duration() const;
+  /// Of the values that it states.
+  [[nodiscard]] double largest() const;
+};
+
+/// How one component of a boundary is driven.
+struct Actuation {
+  sph::Drive::Kind kind = sph::Drive::Kind::velocity;
+  TimeCourse course;
+  double machine_stiffness = 0.0;  ///< N/m, for the whole thickness; 0: rigid
+
+  /// For the engine, from `time` on (s), where velocity (m/s) and force (N, for the whole thickness) are the present
+  /// ones.
+  [[nodiscard]] sph::Drive starting(double time, double velocity, double force, double thickness) const;
+};
+
+/// Of the components x and y; none: free.
+using Actuations = std::array<std::optional<Actuation>, 2>;
+
+}  // namespace fpz::specimen
