@@ -47,6 +47,18 @@ std::string slots_text(const Scene& scene, const Specimen& specimen) {
   return s.str();
 }
 
+/// Loads and how much of the surface they act on.
+std::string loads_text(const Scene& scene, const Specimen& specimen) {
+  std::ostringstream s;
+  s.precision(4);
+  for (std::size_t k = 0; k < scene.loads.size(); ++k) {
+    const SurfaceLoad& load = scene.loads[k];
+    s << "  load              " << load.name << ": " << (load.direction ? "traction" : "pressure") << " on "
+      << 1e3 * specimen.loaded_lengths[k] << " mm of the surface\n";
+  }
+  return s.str();
+}
+
 }  // namespace
 
 Estimate estimate(const Scene& scene, const Specimen& specimen, int threads) {
@@ -83,8 +95,8 @@ std::string estimate_text(const Scene& scene, const Specimen& specimen, const Es
   s.precision(3);
   s << "  particles         " << specimen.setup.arrangement.size() << " (" << e.mean_neighbours << " neighbours each)\n"
     << "  specimen area     " << 1e6 * specimen.area << " mm^2\n"
-    << slots_text(scene, specimen) << "  time step         " << e.schedule.time_step << " s, row every "
-    << e.schedule.row_every << " steps, frame every " << e.schedule.frame_every << "\n"
+    << slots_text(scene, specimen) << loads_text(scene, specimen) << "  time step         " << e.schedule.time_step
+    << " s, row every " << e.schedule.row_every << " steps, frame every " << e.schedule.frame_every << "\n"
     << "  steps             at most " << e.schedule.steps;
   if (e.likely_steps < e.schedule.steps) s << ", about " << e.likely_steps << " to stop.deflection";
   s << "\n  speed             " << 1e-6 * count / e.step_seconds << " million particle-steps/s (uncracked)\n"

@@ -10,9 +10,9 @@ namespace {
 using namespace detail;
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 17> root_keys = {
-    "name",    "description", "source", "material",   "setting", "thickness", "spacing", "shape", "holes",
-    "notches", "arrangement", "method", "boundaries", "gauges",  "toughness", "stop",    "output"};
+constexpr std::array<std::string_view, 18> root_keys = {
+    "name",    "description", "source", "material",   "setting", "thickness", "spacing",   "shape", "holes",
+    "notches", "arrangement", "method", "boundaries", "loads",   "gauges",    "toughness", "stop",  "output"};
 
 /// Puts what an object says in place of the same keys of the file that it names.
 void replace_members(JsonValue& file, const JsonValue& given) {
@@ -119,6 +119,7 @@ Scene read_tree(JsonValue& root, const std::string& origin, const io::ReadLimits
   read_body(r, top, scene);
   read_arrangement(r, top, scene);
   with_required(r, top, "boundaries", [&](const Place& p) { read_boundaries(r, p, scene); });
+  with(top, "loads", [&](const Place& p) { read_loads(r, p, scene); });
   with_required(r, top, "gauges", [&](const Place& p) { read_gauges(r, p, scene); });
   read_toughness(r, root, scene);
   with_required(r, top, "stop", [&](const Place& p) { read_stop(r, p, scene.stop); });

@@ -99,6 +99,7 @@ struct CourseRules {
 bool read_actuations(const InputReader& r, const Place& boundary, bool first_stage, Actuations& drive);
 
 void read_boundaries(const InputReader& r, const Place& place, Scene& scene);
+void read_loads(const InputReader& r, const Place& place, Scene& scene);
 void read_method(const InputReader& r, const Place& place, sph::Options<2>& options);
 void read_gauges(const InputReader& r, const Place& place, Scene& scene);
 /// After the body and the boundaries. The content of a file with factors takes the place of its name in `root`.

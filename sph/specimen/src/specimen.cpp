@@ -8,6 +8,8 @@
 
 #include "fpz/energy.hpp"
 #include "fpz/io/input_error.hpp"
+#include "fpz/specimen/surface_shares.hpp"
+#include "fpz/sph/area_vectors.hpp"
 #include "gauge_kinds.hpp"
 
 namespace fpz::specimen {
@@ -61,6 +63,29 @@ int worthwhile_threads(std::size_t particles) {
 
 bool is_updated(const Specimen& s) { return s.setup.options.configuration == sph::Configuration::updated; }
 
+/// The loads of the scene as forces on particles.
+void add_loads(const Scene& scene, Specimen& s) {
+  if (scene.loads.empty()) return;
+  const sph::Arrangement<2>& a = s.setup.arrangement;
+  std::vector<SurfacePiece> pieces;
+  try {
+    pieces = share_surface(scene.body, a, sph::area_vectors(s.setup));
+  } catch (const std::invalid_argument& e) {
+    fail(scene, e.what());
+  }
+  for (const SurfaceLoad& load : scene.loads) {
+    const std::vector<double> part = loaded_parts(scene.body, load.on, pieces, scene.spacing);
+    double length = 0.0;
+    for (std::size_t k = 0; k < pieces.size(); ++k) length += pieces[k].covered ? 0.0 : part[k] * pieces[k].length();
+    if (!(length > 0.0)) {
+      fail(scene, "load \"" + load.name + "\": there is no free surface where it acts (\"on\")");
+    }
+    const auto traction = [&](const SurfacePiece& piece) { return load.direction ? *load.direction : -piece.normal; };
+    s.setup.loads.push_back({load.name, forces_of(pieces, a.size(), traction, part), load.course.starting(0.0, 0.0)});
+    s.loaded_lengths.push_back(length);
+  }
+}
+
 }  // namespace
 
 SlotOfParticles slot_of_particles(const Notch& notch, const sph::Arrangement<2>& particles, double spacing) {
@@ -109,6 +134,7 @@ Specimen make_specimen(const Scene& scene) {
   s.setup.setting = scene.setting;
   s.setup.options = scene.options;
   if (scene.options.threads == 0) s.setup.options.threads = worthwhile_threads(a.size());
+  add_loads(scene, s);
   const std::vector<std::string> wrong = problems(s.setup);
   if (!wrong.empty()) {
     std::string text;

@@ -1,10 +1,12 @@
-// How a scene drives its boundaries over time.
+// How a scene drives its boundaries and loads its surface over time.
 #pragma once
 
 #include <array>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "fpz/specimen/geometry.hpp"
 #include "fpz/sph/group.hpp"
 
 namespace fpz::specimen {
@@ -42,5 +44,26 @@ struct Actuation {
 
 /// Of the components x and y; none: free.
 using Actuations = std::array<std::optional<Actuation>, 2>;
+
+/// A part of the surface: where all that is given holds.
+struct SurfacePart {
+  bool outside = false;              ///< the outline of the shape, without holes and slots
+  std::optional<std::size_t> hole;   ///< the outline of this hole
+  std::optional<std::size_t> notch;  ///< the faces and the end of this slot
+  std::optional<Shape> within;       ///< rectangle or polygon, its rim included
+  struct Sector {
+    Point centre = Point::Zero();
+    double from = 0.0, to = 0.0;  ///< radian, counter-clockwise from the direction +x; from < to
+  };
+  std::optional<Sector> sector;  ///< seen from its centre
+};
+
+/// A pressure or a traction on parts of the surface.
+struct SurfaceLoad {
+  std::string name;
+  std::vector<SurfacePart> on;
+  std::optional<Point> direction;  ///< of a traction, unit length; none: a pressure, which pushes inward
+  TimeCourse course;               ///< Pa
+};
 
 }  // namespace fpz::specimen

@@ -61,6 +61,7 @@ struct Scene {
   Pattern pattern;
   std::optional<ParticleFile> particles;
   std::vector<Boundary> boundaries;
+  std::vector<SurfaceLoad> loads;
   sph::Options<2> options;
   std::map<std::string, Gauge> gauges;  ///< "load" and "deflection" are always there
   std::optional<SemicircularBending> toughness;

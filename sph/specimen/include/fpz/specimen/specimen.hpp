@@ -28,6 +28,7 @@ struct Specimen {
   std::map<std::string, BoundGauge> gauges;
   double area = 0.0;                   ///< of the specimen without boundary particles, m^2
   std::vector<SlotOfParticles> slots;  ///< of the notches, in their order
+  std::vector<double> loaded_lengths;  ///< of the surface, for each load, m: without what platens cover
 };
 
 /// Places the particles and binds the gauges. Throws io::InputError naming the scene when something does not fit.
