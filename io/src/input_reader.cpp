@@ -32,7 +32,8 @@ void InputReader::problem(const Place& place, const std::string& text) const {
 
 std::string InputReader::where(const Place& place) const {
   const std::string path = place.path();
-  return file_ + ':' + std::to_string(place.line()) + ':' + (path.empty() ? "" : " " + path);
+  const std::string line = place.line() > 0 ? std::to_string(place.line()) + ':' : "";  // none: from the command line
+  return file_ + ':' + line + (path.empty() ? "" : " " + path);
 }
 
 bool InputReader::object(const Place& place, const char* content) const {

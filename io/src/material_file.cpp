@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "fpz/io/plausibility.hpp"
+
 namespace fpz::io {
 namespace {
 
@@ -162,6 +164,25 @@ std::optional<MaterialFile> load_named_material(const InputReader& reader, const
   return material;
 }
 
+namespace {
+
+/// `file:line: path` of a value, without what is not known.
+std::string where(const Location& at) {
+  return at.file + ':' + (at.line > 0 ? std::to_string(at.line) + ':' : "") + ' ' + at.path;
+}
+
+/// A value in another unit is nearly always far off: impossible ones are problems, doubtful ones warnings. What breaks
+/// its bounds has been complained about.
+void judge_value(const Location& at, std::string_view name, double si, Problems& problems,
+                 std::vector<std::string>& warnings) {
+  const Judgement j = judge_parameter(name, si);
+  const std::string text = at.path + j.text.substr(std::min(name.size(), j.text.size()));
+  if (j.verdict == Verdict::impossible) problems.add(at.file, at.line, text);
+  if (j.verdict == Verdict::doubtful) warnings.push_back(where({at.file, at.line, ""}) + text);
+}
+
+}  // namespace
+
 std::vector<std::string> check_material(const MaterialFile& material, const Parameters& parameters, Setting setting,
                                         const std::optional<Location>& rve_length, Problems& problems) {
   const auto location = [&](const std::string& field) -> const Location* {
@@ -178,7 +199,12 @@ std::vector<std::string> check_material(const MaterialFile& material, const Para
   for (const Violation& v : result.warnings) {
     const Location* at = location(v.field);
     if (at == nullptr) continue;
-    warnings.push_back(at->file + ':' + std::to_string(at->line) + ": " + line_of(*at, v));
+    warnings.push_back(where({at->file, at->line, ""}) + line_of(*at, v));
+  }
+  for (const ParameterInfo<double>& key : parameter_table<double>) {
+    const Location* at = location(std::string(key.name));
+    const double x = parameters.*key.member;
+    if (at != nullptr && key.bounds.hold(x)) judge_value(*at, key.name, x, problems, warnings);
   }
   return warnings;
 }

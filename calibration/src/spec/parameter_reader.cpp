@@ -59,7 +59,7 @@ class ParameterReader {
       set(name, x, where);
       if (x == 0.0 && may_be_zero(name)) continue;
       const Typical typical = typical_parameter(name);
-      const Judgement j = calibration::judge(name, {x, x, si_unit(typical.quantity)}, typical);
+      const Judgement j = io::judge(name, {x, x, si_unit(typical.quantity)}, typical);
       const std::string text = where.path + ": " + j.text;
       if (j.verdict == Verdict::impossible) c_.reader.problems().add(where.file, where.line, text);
       if (j.verdict == Verdict::doubtful) {

@@ -23,7 +23,7 @@ std::optional<Unit> unit_named(const Context& c, const Place& at, Quantity quant
 }  // namespace
 
 void Context::judge(const Place& at, std::string_view what, const Written& value, const Typical& typical) const {
-  const Judgement j = calibration::judge(what, value, typical);
+  const Judgement j = io::judge(what, value, typical);
   if (j.verdict == Verdict::impossible) problem(at, j.text);
   if (j.verdict == Verdict::doubtful) warn(at, j.text);
 }

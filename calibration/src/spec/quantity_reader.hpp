@@ -8,15 +8,23 @@
 #include <string_view>
 #include <vector>
 
-#include "fpz/calibration/plausibility.hpp"
 #include "fpz/io/input_reader.hpp"
+#include "fpz/io/plausibility.hpp"
 #include "fpz/words.hpp"
 
 namespace fpz::calibration::detail {
 
 using io::InputReader;
 using io::JsonValue;
+using io::Judgement;
 using io::Place;
+using io::Quantity;
+using io::Typical;
+using io::typical_parameter;
+using io::Unit;
+using io::Verdict;
+using io::Written;
+namespace typical = io::typical;
 
 /// What reading needs everywhere.
 struct Context {

@@ -5,10 +5,10 @@
 #include <string>
 #include <string_view>
 
-#include "fpz/calibration/units.hpp"
+#include "fpz/io/units.hpp"
 #include "fpz/parameters.hpp"
 
-namespace fpz::calibration {
+namespace fpz::io {
 
 /// A range of values (SI) of one quantity.
 struct Typical {
@@ -30,9 +30,20 @@ struct Written {
   std::string_view unit;  ///< of the number
 };
 
+/// What a file lets a person write: numbers in SI only, or {"value": x, "unit": "..."} as well.
+enum class Spelling { si_only, with_unit };
+
 /// Judges a value; `what` names it in the message. Outside [low, high]: doubtful; outside [far_low, far_high]:
-/// impossible. Where the number in another unit would be typical, the message says so.
-[[nodiscard]] Judgement judge(std::string_view what, const Written& value, const Typical& typical);
+/// impossible. Where the number in another unit would be typical, the message says so, and how to write it.
+[[nodiscard]] Judgement judge(std::string_view what, const Written& value, const Typical& typical,
+                              Spelling spelling = Spelling::with_unit);
+
+/// "; 3.9 MPa was probably meant: write 3.9e+06", with the unit in which the number would be typical; empty when there
+/// is none.
+[[nodiscard]] std::string likely_unit(const Written& value, const Typical& typical, Spelling spelling);
+
+/// Judges a parameter by its name in the table of parameters, a number in SI. Throws as typical_parameter().
+[[nodiscard]] Judgement judge_parameter(std::string_view name, double si);
 
 /// The range over `factor`, of another quantity: loads by the stress that they mean.
 [[nodiscard]] Typical scaled(const Typical& typical, Quantity quantity, double factor);
@@ -53,4 +64,4 @@ inline constexpr Typical pressure{Quantity::stress, {1e3, 1e4, 5e8, 5e9}};      
 inline constexpr Typical shear_stress{Quantity::stress, {1e4, 5e4, 3e8, 2e9}};        ///< direct shear
 }  // namespace typical
 
-}  // namespace fpz::calibration
+}  // namespace fpz::io

@@ -1,4 +1,4 @@
-#include "fpz/calibration/units.hpp"
+#include "fpz/io/units.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace fpz::calibration {
+namespace fpz::io {
 
 namespace {
 
@@ -55,4 +55,4 @@ std::optional<double> unit_factor(Quantity q, std::string_view name) {
   return found->factor;
 }
 
-}  // namespace fpz::calibration
+}  // namespace fpz::io

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace fpz::calibration {
+namespace fpz::io {
 
 enum class Quantity { length, force, stress, energy_per_area, toughness, stiffness, density, angle, number };
 
@@ -28,4 +28,4 @@ struct Unit {
 /// Factor of the named unit; nothing when the quantity has no such unit.
 [[nodiscard]] std::optional<double> unit_factor(Quantity q, std::string_view name);
 
-}  // namespace fpz::calibration
+}  // namespace fpz::io

@@ -1,4 +1,4 @@
-#include "fpz/calibration/plausibility.hpp"
+#include "fpz/io/plausibility.hpp"
 
 #include <array>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include "fpz/io/problems.hpp"
 
-namespace fpz::calibration {
+namespace fpz::io {
 namespace {
 
 std::string four_digits(double x) {
@@ -40,7 +40,16 @@ const Unit* meant_unit(const Written& value, const Typical& t) {
 
 }  // namespace
 
-Judgement judge(std::string_view what, const Written& value, const Typical& t) {
+std::string likely_unit(const Written& value, const Typical& t, Spelling spelling) {
+  const Unit* unit = value.si > 0.0 ? meant_unit(value, t) : nullptr;
+  if (unit == nullptr) return "";
+  std::string text = "; " + with_unit(value.number, unit->name) + " was probably meant: write " +
+                     four_digits(value.number * unit->factor);
+  if (spelling == Spelling::with_unit) text += " or \"unit\": \"" + std::string(unit->name) + '"';
+  return text;
+}
+
+Judgement judge(std::string_view what, const Written& value, const Typical& t, Spelling spelling) {
   if (value.si >= t.range.low && value.si <= t.range.high) return {};
   Judgement j;
   const bool far = !(value.si >= t.range.far_low && value.si <= t.range.far_high);
@@ -48,13 +57,13 @@ Judgement judge(std::string_view what, const Written& value, const Typical& t) {
   j.text = std::string(what) + " = " + with_unit(value.number, value.unit) + " is " + (far ? "far " : "") +
            (value.si < t.range.low ? "below" : "above") + (far ? " any" : " the usual") +
            " value for rock and concrete (" + with_unit(t.range.low, "") + " to " +
-           with_unit(t.range.high, si_unit(t.quantity)) + ")";
-  const Unit* unit = value.si > 0.0 ? meant_unit(value, t) : nullptr;
-  if (unit != nullptr) {
-    j.text += "; " + with_unit(value.number, unit->name) + " was probably meant: write " +
-              four_digits(value.number * unit->factor) + " or \"unit\": \"" + std::string(unit->name) + '"';
-  }
+           with_unit(t.range.high, si_unit(t.quantity)) + ")" + likely_unit(value, t, spelling);
   return j;
+}
+
+Judgement judge_parameter(std::string_view name, double si) {
+  const Typical t = typical_parameter(name);
+  return judge(name, {si, si, si_unit(t.quantity)}, t, Spelling::si_only);
 }
 
 Typical scaled(const Typical& t, Quantity quantity, double factor) {
@@ -69,4 +78,4 @@ Typical typical_parameter(std::string_view name) {
   throw std::invalid_argument("no parameter \"" + std::string(name) + '"');
 }
 
-}  // namespace fpz::calibration
+}  // namespace fpz::io

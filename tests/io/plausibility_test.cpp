@@ -1,4 +1,4 @@
-#include "fpz/calibration/plausibility.hpp"
+#include "fpz/io/plausibility.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 
 #include "fpz/io/material_file.hpp"
 
-namespace fpz::calibration {
+namespace fpz::io {
 namespace {
 
 Judgement of(std::string_view name, double number, std::string_view unit) {
@@ -57,7 +57,7 @@ TEST(Plausibility, NoGuessWhereNoUnitFits) {
 }
 
 TEST(Plausibility, EveryKeyOfAMaterialHasARange) {
-  for (const auto& key : io::material_keys) {
+  for (const auto& key : material_keys) {
     const Plausible t = typical_parameter(key.name).range;
     EXPECT_LT(t.far_low, t.low) << key.name;
     EXPECT_LT(t.low, t.high) << key.name;
@@ -67,4 +67,4 @@ TEST(Plausibility, EveryKeyOfAMaterialHasARange) {
 }
 
 }  // namespace
-}  // namespace fpz::calibration
+}  // namespace fpz::io

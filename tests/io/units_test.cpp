@@ -1,10 +1,10 @@
-#include "fpz/calibration/units.hpp"
+#include "fpz/io/units.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-namespace fpz::calibration {
+namespace fpz::io {
 namespace {
 
 TEST(Units, ToughnessOfTable1InBothNotations) {
@@ -23,4 +23,4 @@ TEST(Units, UnknownOrOfAnotherQuantity) {
 }
 
 }  // namespace
-}  // namespace fpz::calibration
+}  // namespace fpz::io
