@@ -202,7 +202,7 @@ Point across(const Notch& n) {
 std::vector<Point> corners(const Notch& n) {
   if (n.width <= 0.0) return {};
   const Point side = 0.5 * n.width * across(n);
-  const Point back = n.mouth - n.width * along(n);
+  const Point back = n.internal ? n.mouth : Point(n.mouth - n.width * along(n));
   return {back - side, n.tip - side, n.tip + side, back + side};
 }
 

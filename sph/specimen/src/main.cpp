@@ -5,6 +5,7 @@
 #include <csignal>
 #include <cstdio>
 #include <iostream>
+#include <set>
 
 #include "fpz/io/input_error.hpp"
 #include "fpz/io/output.hpp"
@@ -84,6 +85,7 @@ int run(const Arguments& a) {
   {
     RunProgressLine line;
     request.progress = [&](const Progress& p) { line.show(p); };
+    request.warn = io::print_warnings;
     result = run_scene(scene, request);
   }
   const History& h = result.history;
@@ -103,6 +105,7 @@ int check(const Arguments& a) {
   const Scene scene = read_scene(a.scene, a.set);
   io::print_warnings(scene.warnings);
   const Specimen specimen = make_specimen(scene);
+  io::print_warnings(specimen.warnings);
   std::cout << scene.name << ": the scene is valid\n"
             << estimate_text(scene, specimen, estimate(scene, specimen, a.threads));
   if (!a.pictures) return 0;
@@ -112,8 +115,19 @@ int check(const Arguments& a) {
   return 0;
 }
 
+/// What is doubtful about the scenes of a sweep, each once.
+void print_scene_warnings(const Sweep& sweep) {
+  std::set<std::string> shown;
+  for (const SweepRun& run : sweep.runs) {
+    for (const std::string& w : run.scene.warnings) {
+      if (shown.insert(w).second) std::cerr << "warning: " << w << " (" << run.folder.string() << ")\n";
+    }
+  }
+}
+
 int sweep(const Arguments& a) {
   const Sweep sweep = read_sweep(a.scene, a.set);
+  print_scene_warnings(sweep);
   SweepRequest request;
   request.folder = a.out;
   request.jobs = a.jobs;

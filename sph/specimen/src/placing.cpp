@@ -178,23 +178,41 @@ sph::Arrangement<2> place_specimen(const Body& body, const Pattern& pattern, dou
   return a;
 }
 
-void place_platen(sph::Arrangement<2>& a, const Shape& shape, const Platen& platen, int group) {
+namespace {
+
+/// Columns of a platen and the distance between them, m.
+std::pair<int, double> columns_of(const Platen& platen, double spacing) {
+  const int columns = std::max(1, static_cast<int>(std::lround(platen.width / spacing)));
+  return {columns, platen.width > 0.0 ? platen.width / columns : spacing};
+}
+
+}  // namespace
+
+std::vector<std::optional<Point>> platen_feet(const Shape& shape, const Platen& platen, double spacing) {
   const Point d = platen.direction.normalized();
   const Point t(d[1], -d[0]);
-  const int columns = std::max(1, static_cast<int>(std::lround(platen.width / a.spacing)));
-  const double pitch = platen.width > 0.0 ? platen.width / columns : a.spacing;
+  const auto [columns, pitch] = columns_of(platen, spacing);
   const auto [low, high] = extent(shape);
-  const double reach = 2.0 * (high - low).norm();
-  std::vector<Point> feet;
-  double outermost = -1e300;
+  const double size = (high - low).norm(), away = (platen.at - 0.5 * (low + high)).norm();
+  const double reach = 2.0 * std::max(size, 0.5 * size + away);
+  std::vector<std::optional<Point>> feet;
   for (int k = 0; k < columns; ++k) {
     const Point line = platen.at + (k + 0.5 - 0.5 * columns) * pitch * t;
     const double hit = first_hit(shape, line + 0.5 * reach * d, d, reach);
-    if (hit < 0.0)
-      throw std::invalid_argument("the platen is wider than the body: one of its columns misses the surface");
-    const double height = 0.5 * reach - hit;
-    feet.push_back(line + height * d);
-    outermost = std::max(outermost, height);
+    feet.push_back(hit < 0.0 ? std::nullopt : std::optional<Point>(line + (0.5 * reach - hit) * d));
+  }
+  return feet;
+}
+
+void place_platen(sph::Arrangement<2>& a, const Shape& shape, const Platen& platen, int group) {
+  const Point d = platen.direction.normalized();
+  const double pitch = columns_of(platen, a.spacing).second;
+  std::vector<Point> feet;
+  double outermost = -1e300;
+  for (const std::optional<Point>& foot : platen_feet(shape, platen, a.spacing)) {
+    if (!foot) throw std::invalid_argument("one of the columns of the platen misses the body");
+    feet.push_back(*foot);
+    outermost = std::max(outermost, (*foot - platen.at).dot(d));
   }
   for (Point& foot : feet) {
     if (platen.fit == Platen::Fit::flat) foot += (outermost - (foot - platen.at).dot(d)) * d;

@@ -117,9 +117,9 @@ void read_arrangement(const InputReader& r, const Place& root, Scene& scene) {
   if (shape == nullptr && !from_file) (void)r.required(root, "shape");
   if (given == nullptr) return;
   const Place place(root, *given);
-  if (!r.object(place, "\"type\"")) return;
-  const ArrangementKind* arrangement = nullptr;
-  with_required(r, place, "type", [&](const Place& p) { arrangement = kind(r, p, arrangement_kinds); });
+  if (!r.object(place, "\"type\" and what belongs to it")) return;
+  const ArrangementKind* arrangement = &arrangement_kinds.front();  // a lattice
+  with(place, "type", [&](const Place& p) { arrangement = kind(r, p, arrangement_kinds); });
   if (arrangement == nullptr) return;
   r.known_keys(place, arrangement->keys);
   arrangement->read(r, place, scene);

@@ -2,12 +2,14 @@
 #include <cmath>
 
 #include "scene_reader.hpp"
+#include "surface_depth.hpp"
 
 namespace fpz::specimen::detail {
 namespace {
 
 constexpr std::array<std::string_view, 4> notch_keys = {"mouth", "length", "angle_deg", "width"};
 constexpr std::array<std::string_view, 1> widths = {"narrowest"};
+constexpr double mouth_of_surface = 0.5;  ///< spacings below it up to which a mouth is one
 
 /// A slot narrower than a spacing is a cut: the place of its tip matters more than its width, which particles cannot
 /// follow.
@@ -58,6 +60,7 @@ void read_body(const InputReader& r, const Place& root, Scene& scene) {
     if (!p.value().is(JsonValue::Kind::array)) return r.problem(p, "expected an array of notches");
     for (const JsonValue& item : p.value().items)
       scene.body.notches.push_back(read_notch(r, Place(p, item), narrowest, scene.spacing));
+    for (Notch& n : scene.body.notches) n.internal = depth(scene.body, n.mouth) > mouth_of_surface * scene.spacing;
   });
 }
 

@@ -88,6 +88,14 @@ void read_machine(const InputReader& r, const Place& boundary, Actuations& drive
 
 }  // namespace
 
+namespace {
+
+bool is_one_of(const JsonValue& v, std::span<const std::string_view> words) {
+  return v.is(JsonValue::Kind::string) && std::find(words.begin(), words.end(), v.text) != words.end();
+}
+
+}  // namespace
+
 TimeCourse read_time_course(const InputReader& r, const Place& p, const CourseRules& rules) {
   TimeCourse c;
   const std::string value = io::in_quotes(rules.value);
@@ -99,12 +107,15 @@ TimeCourse read_time_course(const InputReader& r, const Place& p, const CourseRu
     }
     return c;
   }
-  if (p.value().is(JsonValue::Kind::string)) {
-    if (word(r, p, rules.words)) c.form = Form::hold;
+  if (is_one_of(p.value(), rules.words)) {
+    c.form = Form::hold;
     return c;
   }
-  const std::string content = "a number, {" + value + ", \"ramp\"}, {\"table\": [[time, value], ...]} or \"hold\"";
-  if (!r.object(p, content.c_str())) return c;
+  if (!p.value().is(JsonValue::Kind::object) || p.value().items.empty()) {
+    r.problem(p, "expected a number, {" + value + ", \"ramp\"}, {\"table\": [[time, value], ...]} or \"hold\", found " +
+                     p.value().description());
+    return c;
+  }
   if (p.value().find("table") == nullptr) {
     read_rise(r, p, rules.value, c);
     if (rules.begins_at_zero && c.value != 0.0 && c.ramp == 0.0) {

@@ -1,5 +1,4 @@
-#include <sstream>
-
+#include "check_scene.hpp"
 #include "fpz/io/material_file.hpp"
 #include "fpz/specimen/scene.hpp"
 #include "scene_reader.hpp"
@@ -41,20 +40,6 @@ std::optional<io::MaterialFile> read_material_of(const InputReader& r, JsonValue
   return material;
 }
 
-/// A mesh of particles cannot follow a process zone that is a few spacings long.
-void judge_resolution(Scene& scene) {
-  constexpr double least_spacings = 5.0;
-  const Parameters& p = scene.parameters;
-  const double confined = scene.setting == Setting::plane_strain ? 1.0 - p.poisson_ratio * p.poisson_ratio : 1.0;
-  const double zone = p.young_modulus / confined * p.delta0 / p.tensile_strength;  // E G / sigma_t0^2
-  if (zone >= least_spacings * scene.spacing) return;
-  std::ostringstream text;
-  text << "spacing = " << scene.spacing
-       << ": too coarse for this material, whose process zone is about E G / sigma_t0^2 = " << zone
-       << " m long; peak loads then depend on the spacing (at most " << zone / least_spacings << ")";
-  scene.warnings.push_back(text.str());
-}
-
 /// Kernel gradients keep constant stress in equilibrium where all neighbourhoods are alike: on lattices.
 void judge_operator(Scene& scene) {
   const sph::Options<2>& o = scene.options;
@@ -71,7 +56,7 @@ void judge_operator(Scene& scene) {
   }
   if (!particles_differ || setting.empty()) return;
   scene.warnings.push_back(
-      setting +
+      scene.file + ": " + setting +
       ": on particles that are no lattice constant stress is not in equilibrium, and stresses are "
       "wrong by some tens of per cent; use " +
       way_out + (scene.particles ? ", unless those of the file are a lattice" : ", or a lattice that is not moved"));
@@ -81,6 +66,8 @@ void read_header(const InputReader& r, const Place& root, Scene& scene) {
   const auto text = [&](std::string_view key, std::string& member) {
     with(root, key, [&](const Place& p) { member = r.text(p, 10'000).value_or(""); });
   };
+  scene.file = r.file();
+  scene.has_shape = root.value().find("shape") != nullptr;
   scene.name = fs::path(r.file()).stem().string();
   text("name", scene.name);
   text("description", scene.description);
@@ -128,11 +115,11 @@ Scene read_tree(JsonValue& root, const std::string& origin, const io::ReadLimits
     scene.parameters = material->parameters;
     scene.material_name = material->name;
     scene.warnings = io::check_material(*material, scene.parameters, scene.setting, std::nullopt, problems);
-    judge_resolution(scene);
     const std::string why = why_unfit(scene.options.method, scene.parameters.choices);
     if (!why.empty()) r.problem(top, why);
   }
   judge_operator(scene);
+  if (problems.empty()) check_scene(r, top, scene);
   make_paths_absolute(root, scene);
   scene.text = to_text(root);
   return scene;

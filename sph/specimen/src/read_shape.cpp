@@ -49,6 +49,35 @@ std::optional<Shape> read_ring(const InputReader& r, const Place& place) {
   return Ring{outer.centre, ratio * outer.radius, outer.radius};
 }
 
+/// Which way the triangle a, b, c turns: > 0 counter-clockwise.
+double turn(const Point& a, const Point& b, const Point& c) {
+  return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+}
+
+bool cross_each_other(const Point& a, const Point& b, const Point& c, const Point& d) {
+  return turn(a, b, c) * turn(a, b, d) < 0.0 && turn(c, d, a) * turn(c, d, b) < 0.0;
+}
+
+/// Sides from corner k to the next, round about.
+void check_sides(const InputReader& r, const Place& p, const std::vector<Point>& corners) {
+  const std::size_t n = corners.size();
+  const auto side = [&](std::size_t k) { return std::pair(corners[k], corners[(k + 1) % n]); };
+  for (std::size_t k = 0; k < n; ++k) {
+    const auto [a, b] = side(k);
+    if (a == b) {
+      return r.problem(p, k + 1 == n
+                              ? "the last corner repeats the first; leave it out: the polygon closes by itself"
+                              : "corners " + std::to_string(k) + " and " + std::to_string(k + 1) + " are the same");
+    }
+    for (std::size_t j = 0; j + 1 < k; ++j) {
+      const auto [c, d] = side(j);
+      if (!cross_each_other(a, b, c, d)) continue;
+      return r.problem(p, "the polygon crosses itself: the sides that begin at corners " + std::to_string(j) + " and " +
+                              std::to_string(k) + "; corners must follow each other around the body");
+    }
+  }
+}
+
 constexpr std::string_view polygon_keys[] = {"type", "corners"};
 std::optional<Shape> read_polygon(const InputReader& r, const Place& place) {
   Polygon polygon;
@@ -59,7 +88,11 @@ std::optional<Shape> read_polygon(const InputReader& r, const Place& place) {
     }
     if (polygon.corners.size() < 3) {
       r.problem(p, "has fewer than 3 corners");
-    } else if (area(Shape(polygon)) <= 0.0) {
+      return;
+    }
+    const std::size_t before = r.problems().size();
+    check_sides(r, p, polygon.corners);
+    if (r.problems().size() == before && area(Shape(polygon)) <= 0.0) {
       r.problem(p, "encloses no area");
     }
   });

@@ -51,6 +51,7 @@ class Runner {
         checkpointer_(scene, files_) {}
 
   RunResult go() {
+    if (request_.warn) request_.warn(specimen_.warnings);
     prepare();
     RunResult result;
     while (result.reason.empty()) advance(result);

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "check_particles.hpp"
 #include "fpz/energy.hpp"
 #include "fpz/io/input_error.hpp"
 #include "fpz/specimen/surface_shares.hpp"
@@ -17,7 +18,15 @@ namespace {
 
 using io::InputError;
 
-[[noreturn]] void fail(const Scene& scene, const std::string& what) { throw InputError(scene.name + ": " + what); }
+[[noreturn]] void fail(const Scene& scene, const std::string& what) { throw InputError(scene.file + ": " + what); }
+
+/// Throws all of them, one a line, each with the name of the file.
+void fail_if_any(const Scene& scene, const std::vector<std::string>& wrong) {
+  if (wrong.empty()) return;
+  std::string text;
+  for (const std::string& w : wrong) text += (text.empty() ? "" : "\n" + scene.file + ": ") + w;
+  fail(scene, text);
+}
 
 sph::Arrangement<2> place(const Scene& scene) {
   sph::Arrangement<2> a = scene.particles ? read_particles(scene.particles->file, scene.spacing)
@@ -91,17 +100,18 @@ void add_loads(const Scene& scene, Specimen& s) {
 SlotOfParticles slot_of_particles(const Notch& notch, const sph::Arrangement<2>& particles, double spacing) {
   const double none = std::numeric_limits<double>::infinity();
   const double length = (notch.tip - notch.mouth).norm();
-  double left = none, right = none, beyond = none;
+  double left = none, right = none, beyond = none, behind = -none;
   for (std::size_t i = 0; i < particles.size(); ++i) {
     const Point x = particles.position[i] - notch.mouth;
     const double s = along(notch).dot(x), d = across(notch).dot(x);
     const double half = 0.5 * particles.volume[i] / spacing;  // of its cell
     if (s > 0.0 && s < length) (d > 0.0 ? left : right) = std::min(d > 0.0 ? left : right, std::abs(d) - half);
-    const bool before_the_end = s >= length - spacing && std::abs(d) < 0.5 * std::max(notch.width, spacing);
-    if (before_the_end) beyond = std::min(beyond, s - half);
+    if (std::abs(d) >= 0.5 * std::max(notch.width, spacing)) continue;
+    if (s >= length - spacing) beyond = std::min(beyond, s - half);
+    if (s <= spacing) behind = std::max(behind, s + half);
   }
   const auto known = [](double x) { return std::isfinite(x) ? x : std::numeric_limits<double>::quiet_NaN(); };
-  return {known(left + right), known(beyond)};
+  return {known(left + right), known(notch.internal ? beyond - behind : beyond)};
 }
 
 Specimen make_specimen(const Scene& scene) {
@@ -135,12 +145,10 @@ Specimen make_specimen(const Scene& scene) {
   s.setup.options = scene.options;
   if (scene.options.threads == 0) s.setup.options.threads = worthwhile_threads(a.size());
   add_loads(scene, s);
-  const std::vector<std::string> wrong = problems(s.setup);
-  if (!wrong.empty()) {
-    std::string text;
-    for (const std::string& w : wrong) text += (text.empty() ? "" : "\n") + scene.name + ": " + w;
-    throw InputError(text);
-  }
+  fail_if_any(scene, problems(s.setup));
+  detail::ParticleFindings found = detail::check_particles(scene, a);
+  fail_if_any(scene, found.problems);
+  s.warnings = std::move(found.warnings);
   for (const auto& [name, gauge] : scene.gauges) {
     const detail::GaugeBinding to{scene, a, name};
     s.gauges.emplace(name, std::visit([&](const auto& kind) { return detail::bind(kind, to); }, gauge));

@@ -34,6 +34,7 @@ bool load_has_dropped(const StopState& s) {
   constexpr std::size_t rows = 3;  // one alone may be an oscillation
   const History& h = s.recorder.history();
   if (!s.scene.stop.load_below || s.run.cracked() == 0 || h.rows() <= rows + 1) return false;
+  if (!(s.recorder.peak_load() > 0.0)) return false;  // what never rose cannot have dropped
   bool below = true;
   for (std::size_t k = 1; k <= rows; ++k) {
     below = below && h.at(h.rows() - k, "load") < *s.scene.stop.load_below * s.recorder.peak_load();

@@ -129,8 +129,29 @@ std::string error_of_the_model(const Scene& scene, const Findings& f) {
                     : "");
 }
 
+namespace {
+
+/// A gauge that goes the wrong way is turned round: nothing that is derived from it means what its name says.
+void warn_of_signs(const History& h, std::vector<std::string>& list) {
+  for (const char* name : {"load", "deflection"}) {
+    double least = 0.0, largest = 0.0;
+    for (std::size_t r = 0; r < h.rows(); ++r) {
+      least = std::min(least, h.at(r, name));
+      largest = std::max(largest, h.at(r, name));
+    }
+    if (-least <= largest) continue;
+    std::ostringstream s;
+    s << "gauges." << name << ".direction: the " << name << " falls to " << least << " and rises to " << largest
+      << " only: it points the wrong way, and peak, stiffness and what else follows from it are wrong; turn it round";
+    list.push_back(s.str());
+  }
+}
+
+}  // namespace
+
 std::vector<std::string> warnings_of(const Scene& scene, const History& h, const Findings& f) {
   std::vector<std::string> list;
+  warn_of_signs(h, list);
   if (h.rows() > 1 && peak_row(h) + 1 == h.rows()) {
     list.push_back("the load was still rising at the end: the peak load is not reached");
   }
@@ -205,6 +226,9 @@ std::string summary_text(const SummaryInput& in) {
   j["status"] = fpz::to_string(in.result.ending);
   j["reason"] = in.result.reason;
   j["warnings"] = in.result.warnings;
+  std::vector<std::string> doubtful = in.scene.warnings;
+  doubtful.insert(doubtful.end(), in.specimen.warnings.begin(), in.specimen.warnings.end());
+  j["scene_warnings"] = doubtful;
   j["units"] = "SI; forces and energies for the whole thickness";
   j["peak_load"] = number(f.peak_load);
   j["deflection_at_peak"] = number(f.deflection_at_peak);

@@ -209,7 +209,8 @@ void add_runs(const InputReader& r, const Place& top, const fs::path& scene, con
       set.push_back("name=" + title);
       try {
         run.scene = read_scene(scene, set);
-        (void)make_specimen(run.scene);
+        const Specimen specimen = make_specimen(run.scene);
+        run.scene.warnings.insert(run.scene.warnings.end(), specimen.warnings.begin(), specimen.warnings.end());
       } catch (const io::InputError& e) {
         if (complaints.insert(e.what()).second) {
           r.problem(top, "run " + io::in_quotes(run.folder.string()) + ":\n" + e.what());

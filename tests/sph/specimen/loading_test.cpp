@@ -74,7 +74,7 @@ TEST(LoadingOfScenes, WhatIsWrongIsNamed) {
       {R"("force": {"y": {"table": [[0.5, 0], [2, -1]]}})", "the first time of a table is 0"},
       {R"("force": {"y": {"table": [[0, 0]]}})", "at least two rows"},
       {R"("force": {"y": {"table": [[0, 0], [1, -5]], "cycles": 2}})", "must end with the value with which it begins"},
-      {R"("force": {"y": "keep"})", "unknown choice \"keep\""},
+      {R"("force": {"y": "keep"})", "or \"hold\", found the string \"keep\""},
       {R"("force": {"y": true})", "a number, {\"value\", \"ramp\"}, {\"table\": [[time, value], ...]} or \"hold\""},
       {R"("force": {"y": 0}, "velocity": {"y": 0})", "this component is driven twice"},
       {R"("force": {"y": 0}, "machine_stiffness": {"y": 1e8})", "has no velocity or displacement that a machine"},

@@ -149,7 +149,7 @@ TEST(Run, StopsWhenToldTo) {
 }
 
 TEST(Run, AnExplodingRunSaysSo) {
-  const RunResult r = run(small_beam({"boundaries[0].velocity.y={\"speed\": -1e5}", "stop={\"time\": 2e-3}"}),
+  const RunResult r = run(small_beam({"boundaries[0].velocity.y={\"speed\": -4000}", "stop={\"time\": 2e-3}"}),
                           fpz::test::fresh_path("explodes"));
   EXPECT_EQ(r.ending, Ending::failed);
   EXPECT_NE(r.reason.find("particle"), std::string::npos);

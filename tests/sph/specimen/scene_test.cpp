@@ -165,8 +165,8 @@ TEST(Scene, TheTextReadsBackAsTheSameScene) {
 }
 
 TEST(Scene, GaugesThatFindNothingAreRefused) {
-  const Scene s =
-      read_scene(scenes / "beam_3pb.json", {R"(gauges.far={"stress": "xx", "of": {"low": [5, 5], "high": [6, 6]}})"});
+  const Scene s = read_scene(scenes / "beam_3pb.json",
+                             {R"(gauges.far={"stress": "xx", "of": {"low": [0.01, 0.01], "high": [0.011, 0.011]}})"});
   EXPECT_THROW((void)make_specimen(s), InputError);
   EXPECT_NE(beam_complaint({R"(gauges.load={"stress": "xx", "of": "top"})"}).find("must measure a force"),
             std::string::npos);

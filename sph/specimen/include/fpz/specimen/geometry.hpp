@@ -35,11 +35,13 @@ struct Polygon {
 using Shape = std::variant<Rectangle, Disc, HalfDisc, Ring, Polygon>;
 
 /// A straight slot from its mouth on the surface to its tip, square at the tip. Width 0 is a cut: no material is
-/// missing. The slot reaches backwards beyond its mouth by its width, so that an inclined one opens the surface fully.
+/// missing. The slot reaches backwards beyond its mouth by its width, so that an inclined one opens the surface fully;
+/// an internal one, whose mouth is in the body, ends there as it does at the tip.
 struct Notch {
   Point mouth = Point::Zero(), tip = Point::Zero();
   double width = 0.0;
   double asked_width = 0.0;  ///< narrower than a spacing where `width` is 0 in its place
+  bool internal = false;     ///< the mouth is in the body: both ends are tips
 };
 
 struct Body {

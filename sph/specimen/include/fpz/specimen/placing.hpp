@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -47,6 +48,9 @@ struct Platen {
   };
   Fit fit = Fit::surface;
 };
+
+/// Where the columns of a platen meet the surface of the shape from outside; nothing for one that misses it.
+[[nodiscard]] std::vector<std::optional<Point>> platen_feet(const Shape& shape, const Platen& platen, double spacing);
 
 /// Adds the particles of a platen as group `group`. Throws std::invalid_argument when a column misses the body.
 void place_platen(sph::Arrangement<2>& arrangement, const Shape& shape, const Platen& platen, int group);

@@ -29,6 +29,7 @@ struct RunRequest {
   long long most_steps = 0;  ///< stop after so many steps of this process, with a checkpoint; 0: no limit
   const volatile std::sig_atomic_t* interrupt = nullptr;  ///< not 0: stop with a checkpoint
   std::function<void(const Progress&)> progress;
+  std::function<void(const std::vector<std::string>&)> warn;  ///< told before the first step what is doubtful
 };
 
 enum class Ending : unsigned char { finished, interrupted, failed };

@@ -50,6 +50,7 @@ struct OutputRules {
 };
 
 struct Scene {
+  std::string file;  ///< where it was read from, for messages
   std::string name;
   std::string description;
   std::string material_name;
@@ -58,6 +59,7 @@ struct Scene {
   double thickness = 0.0;  ///< m
   double spacing = 0.0;    ///< m
   Body body;
+  bool has_shape = false;  ///< false: particles from a file alone
   Pattern pattern;
   std::optional<ParticleFile> particles;
   std::vector<Boundary> boundaries;

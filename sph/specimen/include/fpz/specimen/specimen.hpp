@@ -18,7 +18,8 @@ struct SlotOfParticles {
   double length = 0.0;  ///< from the mouth to the cell of the first particle beyond the end, m
 };
 
-/// Of a notch with a width above 0. NaN where no particle stands beside or beyond it.
+/// Of a notch with a width above 0; the length of an internal one between the cells beyond its ends. NaN where no
+/// particle stands beside or beyond it.
 [[nodiscard]] SlotOfParticles slot_of_particles(const Notch& notch, const sph::Arrangement<2>& particles,
                                                 double spacing);
 
@@ -29,6 +30,7 @@ struct Specimen {
   double area = 0.0;                   ///< of the specimen without boundary particles, m^2
   std::vector<SlotOfParticles> slots;  ///< of the notches, in their order
   std::vector<double> loaded_lengths;  ///< of the surface, for each load, m: without what platens cover
+  std::vector<std::string> warnings;   ///< doubtful about its particles
 };
 
 /// Places the particles and binds the gauges. Throws io::InputError naming the scene when something does not fit.

@@ -1,0 +1,127 @@
+// Platens against the body, its notches and holes, and each other.
+#include <cmath>
+
+#include "check_scene.hpp"
+#include "surface_depth.hpp"
+
+namespace fpz::specimen::detail {
+namespace {
+
+/// The feet of a platen's columns that stand on the body.
+struct Footing {
+  std::size_t columns = 0;
+  std::vector<Point> feet;
+};
+
+Footing footing_of(const Scene& scene, const Platen& platen) {
+  Footing f;
+  for (const std::optional<Point>& foot : platen_feet(scene.body.shape, platen, scene.spacing)) {
+    ++f.columns;
+    if (foot) f.feet.push_back(*foot);
+  }
+  return f;
+}
+
+std::string body_reach(const Scene& scene) {
+  const auto [low, high] = extent(scene.body.shape);
+  return "the body reaches from " + brief(low) + " to " + brief(high);
+}
+
+void check_footing(const SceneCheck& c, const Place& p, const Platen& platen, const Footing& f) {
+  if (f.feet.empty()) {
+    return with(p, "at", [&](const Place& at) {
+      c.problem(at, "the platen is off the body: nothing lies on the line through it along \"direction\" = " +
+                        brief(platen.direction) + " (" + body_reach(c.scene) + ")" +
+                        likely_place(platen.at, c.scene.body.shape));
+    });
+  }
+  if (f.feet.size() == f.columns) return;
+  const double width = platen.width * static_cast<double>(f.feet.size()) / static_cast<double>(f.columns);
+  with(p, "width", [&](const Place& at) {
+    c.problem(at, "the platen reaches beyond the body: " + std::to_string(f.columns - f.feet.size()) + " of its " +
+                      std::to_string(f.columns) + " columns miss the surface, which is under it from " +
+                      brief(f.feet.front()) + " to " + brief(f.feet.back()) + "; must be about " + brief(width) +
+                      " at most there, or \"at\" must move" +
+                      likely_length(platen.width, 0.5 * c.scene.spacing, width));
+  });
+}
+
+/// The platen stands where its columns meet the surface from outside; `at` should be near that.
+void check_side(const SceneCheck& c, const Place& p, const Platen& platen, const Footing& f) {
+  constexpr double near = 2.0, far = 0.25;
+  const Point d = platen.direction.normalized();
+  const auto [low, high] = extent(c.scene.body.shape);
+  const Point foot = f.feet[f.feet.size() / 2];
+  const double outward = (foot - platen.at).dot(d);
+  if (outward > near * c.scene.spacing && depth(c.scene.body, platen.at) < near * c.scene.spacing) {
+    return with(p, "direction", [&](const Place& at) {
+      c.problem(at, "points into the body from \"at\" = " + brief(platen.at) +
+                        ", so that the platen would stand on the other side, at " + brief(foot) +
+                        "; must point outwards");
+    });
+  }
+  if (-outward < far * (high - low).maxCoeff()) return;
+  with(p, "at", [&](const Place& at) {
+    c.warn(at, "lies " + brief(-outward) + " m above the surface; the platen stands on it, at " + brief(foot));
+  });
+}
+
+void check_ground(const SceneCheck& c, const Place& p, const Platen& platen, const Footing& f) {
+  const Scene& s = c.scene;
+  const Point d = platen.direction.normalized();
+  std::size_t hollow = 0;
+  for (const Point& foot : f.feet) hollow += contains(s.body, foot - 0.5 * s.spacing * d) ? 0U : 1U;
+  const std::string over = std::to_string(hollow) + " of its " + std::to_string(f.columns) +
+                           " columns stand over a hole or a slot, where nothing carries them";
+  at_member(p, "at", [&](const Place& at) {
+    if (hollow == f.columns) return c.problem(at, over);
+    if (hollow > 0) return c.warn(at, over);
+    for (std::size_t k = 0; k < s.body.notches.size(); ++k) {
+      for (const Point& end : {s.body.notches[k].mouth, s.body.notches[k].tip}) {
+        const bool beneath = std::abs((end - f.feet[f.feet.size() / 2]).dot(d)) < s.spacing &&
+                             std::abs((end - platen.at).dot(Point(d[1], -d[0]))) < 0.5 * platen.width;
+        if (!beneath) continue;
+        c.warn(at, "notches[" + std::to_string(k) +
+                       "] reaches the surface under the platen, which holds its faces "
+                       "together there");
+      }
+    }
+  });
+}
+
+void check_overlap(const SceneCheck& c, const Place& p, const Footing& own, const std::vector<Footing>& earlier) {
+  for (std::size_t k = 0; k < earlier.size(); ++k) {
+    double nearest = 1e300;
+    for (const Point& a : own.feet) {
+      for (const Point& b : earlier[k].feet) nearest = std::min(nearest, (a - b).norm());
+    }
+    if (nearest > 0.9 * c.scene.spacing) continue;
+    at_member(p, "at", [&](const Place& at) {
+      c.problem(at, "the platen lies on the one of boundary " + io::in_quotes(c.scene.boundaries[k].name) +
+                        ": they touch the surface at the same places, " + brief(own.feet.front()) + " to " +
+                        brief(own.feet.back()));
+    });
+  }
+}
+
+}  // namespace
+
+void check_boundaries(const SceneCheck& c) {
+  std::vector<Footing> earlier;
+  for_entries(c, "boundaries", [&](const Place& p, std::size_t k) {
+    const auto& platen = c.scene.boundaries[k].platen;
+    Footing f;
+    if (platen) {
+      f = footing_of(c.scene, *platen);
+      check_footing(c, p, *platen, f);
+    }
+    if (platen && f.feet.size() == f.columns) {
+      check_side(c, p, *platen, f);
+      check_ground(c, p, *platen, f);
+      check_overlap(c, p, f, earlier);
+    }
+    earlier.push_back(std::move(f));
+  });
+}
+
+}  // namespace fpz::specimen::detail

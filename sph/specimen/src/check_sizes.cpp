@@ -1,0 +1,95 @@
+// Thickness, size and weight of the body; the spacing against its narrowest part and the process zone.
+#include <cmath>
+
+#include "check_scene.hpp"
+#include "fpz/io/plausibility.hpp"
+#include "ligament.hpp"
+
+namespace fpz::specimen::detail {
+namespace {
+
+void judge_length(const SceneCheck& c, const Place& at, const char* what, double metres, const io::Typical& typical) {
+  const io::Judgement j = io::judge(what, {metres, metres, "m"}, typical, io::Spelling::si_only);
+  if (j.verdict == io::Verdict::impossible) c.reader.problem(at, j.text);
+  if (j.verdict == io::Verdict::doubtful) c.warnings.push_back(c.reader.where(at) + ": " + j.text);
+}
+
+void check_body_size(const SceneCheck& c) {
+  const auto [low, high] = extent(c.scene.body.shape);
+  const Point size = high - low;
+  with(c.root, "shape", [&](const Place& p) {
+    judge_length(c, p, "the size of the body", size.maxCoeff(), io::typical::specimen_size);
+  });
+}
+
+/// The body with cuts in place of slots that would leave nothing of it: with a spacing that is far too large.
+Body with_possible_slots(Body body) {
+  const auto [low, high] = extent(body.shape);
+  for (Notch& n : body.notches) {
+    if (n.width > 0.5 * (high - low).minCoeff()) n.width = 0.0;
+  }
+  return body;
+}
+
+/// A neck of a few rows is all surface, and its stress a matter of chance.
+void check_necks(const SceneCheck& c) {
+  constexpr double fewest = 3.0, enough = 10.0;
+  const Ligament l = smallest_ligament(with_possible_slots(c.scene.body));
+  const double rows = l.width / c.scene.spacing;
+  if (!std::isfinite(rows) || rows >= enough * (1.0 - 1e-6)) return;
+  with(c.root, "spacing", [&](const Place& p) {
+    std::string text = "only " + brief(rows) + " rows of particles across the narrowest part of the body, " +
+                       brief(l.width) + " m from " + brief(l.from) + " to " + brief(l.to) + "; ";
+    text += rows < fewest ? "must be <= " + brief(l.width / fewest) + " (3 rows), and should be <= " : "should be <= ";
+    text += brief(l.width / enough) + " (10 rows)";
+    if (rows >= fewest) return c.warn(p, text);
+    c.problem(p, text + likely_length(c.scene.spacing, 1e-3 * l.width, l.width / enough));
+  });
+}
+
+/// A mesh of particles cannot follow a process zone that is a few spacings long, and not even begin where H snaps back.
+void check_process_zone(const SceneCheck& c) {
+  constexpr double least_spacings = 5.0;
+  const Parameters& p = c.scene.parameters;
+  const double confined = c.scene.setting == Setting::plane_strain ? 1.0 - p.poisson_ratio * p.poisson_ratio : 1.0;
+  const double zone = p.young_modulus / confined * p.delta0 / p.tensile_strength;  // E G / sigma_t0^2
+  const double longest = snap_back_length(p, c.scene.setting);
+  with(c.root, "spacing", [&](const Place& at) {
+    if (c.scene.spacing >= longest) {
+      return c.problem(at, "must be < " + brief(longest) + ", the longest H without snap-back of this material");
+    }
+    if (zone >= least_spacings * c.scene.spacing) return;
+    c.warn(at, "too coarse for this material, whose process zone is about E G / sigma_t0^2 = " + brief(zone) +
+                   " m long; peak loads then depend on the spacing (at most " + brief(zone / least_spacings) + ")");
+  });
+}
+
+/// Gravity that tears the body by its weight is one in other units.
+void check_gravity(const SceneCheck& c) {
+  const auto [low, high] = extent(c.scene.body.shape);
+  const double stress = c.scene.parameters.density * c.scene.options.gravity.norm() * (high - low).maxCoeff();
+  if (stress < c.scene.parameters.tensile_strength) return;
+  with(c.root, "method", [&](const Place& method) {
+    with(method, "gravity", [&](const Place& p) {
+      c.warn(p, "the weight of the body alone makes stresses of " + brief(1e-6 * stress) +
+                    " MPa, above its tensile strength (on earth: 9.81 m/s^2)");
+    });
+  });
+}
+
+}  // namespace
+
+void check_sizes(const SceneCheck& c) {
+  with(c.root, "thickness",
+       [&](const Place& p) { judge_length(c, p, "thickness", c.scene.thickness, io::typical::small_size); });
+  check_body_size(c);
+  check_gravity(c);
+}
+
+void check_rows(const SceneCheck& c) {
+  const std::size_t before = c.reader.problems().size();
+  check_necks(c);
+  if (c.reader.problems().size() == before) check_process_zone(c);
+}
+
+}  // namespace fpz::specimen::detail
