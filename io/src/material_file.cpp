@@ -171,14 +171,15 @@ std::string where(const Location& at) {
   return at.file + ':' + (at.line > 0 ? std::to_string(at.line) + ':' : "") + ' ' + at.path;
 }
 
-/// A value in another unit is nearly always far off: impossible ones are problems, doubtful ones warnings. What breaks
-/// its bounds has been complained about.
+/// A value that is far off because it is in another unit is a problem; others are warnings: a material may be made too
+/// strong to crack.
 void judge_value(const Location& at, std::string_view name, double si, Problems& problems,
                  std::vector<std::string>& warnings) {
   const Judgement j = judge_parameter(name, si);
   const std::string text = at.path + j.text.substr(std::min(name.size(), j.text.size()));
-  if (j.verdict == Verdict::impossible) problems.add(at.file, at.line, text);
-  if (j.verdict == Verdict::doubtful) warnings.push_back(where({at.file, at.line, ""}) + text);
+  if (j.verdict == Verdict::plausible) return;
+  if (j.verdict == Verdict::impossible && j.other_unit) return problems.add(at.file, at.line, text);
+  warnings.push_back(where({at.file, at.line, ""}) + text);
 }
 
 }  // namespace

@@ -54,10 +54,12 @@ Judgement judge(std::string_view what, const Written& value, const Typical& t, S
   Judgement j;
   const bool far = !(value.si >= t.range.far_low && value.si <= t.range.far_high);
   j.verdict = far ? Verdict::impossible : Verdict::doubtful;
+  const std::string unit = likely_unit(value, t, spelling);
+  j.other_unit = !unit.empty();
   j.text = std::string(what) + " = " + with_unit(value.number, value.unit) + " is " + (far ? "far " : "") +
            (value.si < t.range.low ? "below" : "above") + (far ? " any" : " the usual") +
            " value for rock and concrete (" + with_unit(t.range.low, "") + " to " +
-           with_unit(t.range.high, si_unit(t.quantity)) + ")" + likely_unit(value, t, spelling);
+           with_unit(t.range.high, si_unit(t.quantity)) + ")" + unit;
   return j;
 }
 

@@ -56,7 +56,9 @@ void check_process_zone(const SceneCheck& c) {
   const double longest = snap_back_length(p, c.scene.setting);
   with(c.root, "spacing", [&](const Place& at) {
     if (c.scene.spacing >= longest) {
-      return c.problem(at, "must be < " + brief(longest) + ", the longest H without snap-back of this material");
+      return c.warn(at, "should be < " + brief(longest) +
+                            ", the longest H without snap-back of this material: a run ends where the first particle "
+                            "cracks");
     }
     if (zone >= least_spacings * c.scene.spacing) return;
     c.warn(at, "too coarse for this material, whose process zone is about E G / sigma_t0^2 = " + brief(zone) +

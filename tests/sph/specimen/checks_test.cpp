@@ -150,10 +150,10 @@ TEST(Checks, SizesAndSpacings) {
       {refused, beam, {"spacing=0.05"}, {"spacing: 0.05: only 1.44 rows of particles", "0.072 m", "must be <= 0.024"}},
       {warned, beam, {"spacing=0.008"}, {"spacing: 0.008: only 9 rows of particles", "should be <= 0.0072 (10 rows)"}},
       {warned, beam, {"material.delta0=1e-6"}, {"spacing: 0.004: too coarse for this material", "at most 0.003293"}},
-      {refused,
+      {warned,
        beam,
        {"material.delta0=4e-7", "spacing=0.008"},
-       {"spacing: 0.008: must be < 0.00", "without snap-back"}},
+       {"spacing: 0.008: should be < 0.00", "without snap-back"}},
       {warned, beam, {"method.gravity=[0,-9810]"}, {"method.gravity: [0, -9810]: the weight of the body", "9.81"}},
       {refused,
        beam,
@@ -317,6 +317,10 @@ TEST(Checks, Materials) {
        beam,
        {"material.friction_angle_deg=0.65", "material.dilation_angle_deg=0.1"},
        {"material.friction_angle_deg = 0.65 deg", "0.65 rad was probably meant: write 37.24"}},
+      {warned,
+       beam,
+       {"material.tensile_strength=1e9", "material.cohesion=1e10"},
+       {"material.tensile_strength = 1e+09 Pa is far above any value"}},
       {warned, beam, {"material.young_modulus=2e11"}, {"material.young_modulus = 2e+11 Pa is above the usual value"}},
   });
 }

@@ -20,7 +20,8 @@ enum class Verdict { plausible, doubtful, impossible };
 
 struct Judgement {
   Verdict verdict = Verdict::plausible;
-  std::string text;  ///< empty when plausible
+  std::string text;         ///< empty when plausible
+  bool other_unit = false;  ///< the number would be usual in another unit, which the text names
 };
 
 /// A number as a person wrote it, and in SI.
