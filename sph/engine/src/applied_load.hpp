@@ -13,6 +13,7 @@ class AppliedLoad final : public Boundary<Dim> {
 
   void push() override;
   [[nodiscard]] Vec<double, Dim> reaction() const override { return factor_ * sum_; }
+  [[nodiscard]] double factor() const override { return factor_; }
   void set_factor(const TimeTable& factor) override { table_ = factor; }
   void save(Writer& archive) const override { transfer_state(archive, *this); }
   void load(Reader& archive) override { transfer_state(archive, *this); }

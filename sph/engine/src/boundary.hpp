@@ -30,6 +30,8 @@ class Boundary {
   [[nodiscard]] virtual Vec<double, Dim> reaction() const = 0;
   /// Velocity at n + 1/2 of what it drives, m/s; zero in free components.
   [[nodiscard]] virtual Vec<double, Dim> velocity() const { return Vec<double, Dim>::Zero(); }
+  /// Present factor of a load.
+  [[nodiscard]] virtual double factor() const { return 1.0; }
   /// Longest time step that is stable for it, s.
   [[nodiscard]] virtual double stable_step() const { return std::numeric_limits<double>::infinity(); }
   /// Changes what drives a component, from n on. Throws std::invalid_argument when it was free.

@@ -82,8 +82,8 @@ Vec<double, Dim> Simulation<Dim>::velocity(std::size_t group) const {
   return engine_->boundaries.at(group)->velocity();
 }
 template <int Dim>
-Vec<double, Dim> Simulation<Dim>::load(std::size_t index) const {
-  return engine_->boundaries.at(engine_->run.setup.groups.size() + index)->reaction();
+double Simulation<Dim>::factor(std::size_t load) const {
+  return engine_->boundaries.at(engine_->run.setup.groups.size() + load)->factor();
 }
 
 namespace {

@@ -1,5 +1,5 @@
-// A checkpoint: the file from which a run goes on bit for bit. It holds the scene, the parts of recorder and frame
-// writer, the wall times, and a snapshot: the state of the particles as the engine makes bytes of it.
+// A checkpoint: the file from which a run goes on bit for bit. It holds the scene, the parts of recorder, frame
+// writer and stage keeper, the wall times, and a snapshot: the state of the particles as the engine makes bytes of it.
 //
 // Every struct in it has one function transfer() for both directions, which takes the struct apart by name: a member
 // that is left out does not compile.
@@ -7,6 +7,7 @@
 
 #include "frame_writer.hpp"
 #include "recorder.hpp"
+#include "stage_keeper.hpp"
 
 namespace fpz::specimen {
 
@@ -30,14 +31,15 @@ struct Checkpoint {
   std::string scene_text;
   RecorderState recorder;
   FrameWriterState frames;
+  StageState stages;
   WallTimes seconds;
   std::vector<unsigned char> snapshot;
 };
 
 template <class Archive, class C>
 void transfer(Archive& archive, C& checkpoint) requires std::same_as<std::remove_const_t<C>, Checkpoint> {
-  auto& [scene_text, recorder, frames, seconds, snapshot] = checkpoint;
-  archive(scene_text), archive(recorder), archive(frames), archive(seconds), archive(snapshot);
+  auto& [scene_text, recorder, frames, stages, seconds, snapshot] = checkpoint;
+  archive(scene_text), archive(recorder), archive(frames), archive(stages), archive(seconds), archive(snapshot);
 }
 
 void write_checkpoint(const std::filesystem::path& file, const Checkpoint& checkpoint);

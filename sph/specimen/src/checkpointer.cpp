@@ -6,9 +6,10 @@
 namespace fpz::specimen::detail {
 
 void Checkpointer::save(const sph::Simulation<2>& run, const Recorder& recorder, const FrameWriter& frames,
-                        const WallTimes& seconds) {
+                        const StageKeeper& stages, const WallTimes& seconds) {
   io::write_text(files_.history, recorder.history().to_csv(), true);
-  write_checkpoint(files_.checkpoint, {scene_.text, recorder.state(), frames.state(), seconds, run.snapshot()});
+  write_checkpoint(files_.checkpoint,
+                   {scene_.text, recorder.state(), frames.state(), stages.state(), seconds, run.snapshot()});
   last_ = Clock::now();
 }
 
@@ -17,7 +18,8 @@ bool Checkpointer::due() const {
   return interval > 0.0 && std::chrono::duration<double>(Clock::now() - last_).count() > interval;
 }
 
-void Checkpointer::resume(sph::Simulation<2>& run, Recorder& recorder, FrameWriter& frames, WallTimes& seconds) const {
+void Checkpointer::resume(sph::Simulation<2>& run, Recorder& recorder, FrameWriter& frames, StageKeeper& stages,
+                          WallTimes& seconds) const {
   Checkpoint c = read_checkpoint(files_.checkpoint);
   if (c.scene_text != scene_.text) {
     throw io::InputError(files_.checkpoint.string() + ": belongs to another scene (" + files_.scene.string() +
@@ -30,6 +32,7 @@ void Checkpointer::resume(sph::Simulation<2>& run, Recorder& recorder, FrameWrit
   }
   recorder.restore(std::move(c.recorder));
   frames.restore(std::move(c.frames));
+  stages.restore(std::move(c.stages));
   seconds = c.seconds;
 }
 

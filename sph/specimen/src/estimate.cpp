@@ -98,7 +98,8 @@ std::string estimate_text(const Scene& scene, const Specimen& specimen, const Es
     << slots_text(scene, specimen) << loads_text(scene, specimen) << "  time step         " << e.schedule.time_step
     << " s, row every " << e.schedule.row_every << " steps, frame every " << e.schedule.frame_every << "\n"
     << "  steps             at most " << e.schedule.steps;
-  if (e.likely_steps < e.schedule.steps) s << ", about " << e.likely_steps << " to stop.deflection";
+  if (scene.stop.deflection && e.likely_steps < e.schedule.steps)
+    s << ", about " << e.likely_steps << " to stop.deflection";
   s << "\n  speed             " << 1e-6 * count / e.step_seconds << " million particle-steps/s (uncracked)\n"
     << "  time              about " << e.step_seconds * static_cast<double>(e.likely_steps)
     << " s or less (cracked particles cost more; the load may drop earlier)\n"

@@ -8,7 +8,8 @@ constexpr std::array<std::string_view, 11> boundary_keys = {"name",         "at"
                                                             "layers",       "fit",   "elastic",          "velocity",
                                                             "displacement", "force", "machine_stiffness"};
 
-Boundary read_boundary(const InputReader& r, const Place& place, const Scene& scene) {
+Boundary read_boundary(const InputReader& r, const Place& place, std::span<const std::string> gauges,
+                       const Scene& scene) {
   Boundary b;
   if (!r.object(place, "\"name\", \"at\", \"direction\", \"width\" and how it is driven")) return b;
   r.known_keys(place, boundary_keys);
@@ -30,7 +31,7 @@ Boundary read_boundary(const InputReader& r, const Place& place, const Scene& sc
     b.platen = platen;
   }
   with(place, "elastic", [&](const Place& p) { b.elastic = boolean(r, p).value_or(true); });
-  if (!read_actuations(r, place, true, b.drive)) {
+  if (!read_actuations(r, place, {true, gauges}, b.drive)) {
     r.problem(place, "needs \"velocity\", \"displacement\" or \"force\": how it is driven");
   }
   return b;
@@ -38,10 +39,10 @@ Boundary read_boundary(const InputReader& r, const Place& place, const Scene& sc
 
 }  // namespace
 
-void read_boundaries(const InputReader& r, const Place& place, Scene& scene) {
+void read_boundaries(const InputReader& r, const Place& place, std::span<const std::string> gauges, Scene& scene) {
   if (!r.array(place, "boundaries")) return;
   for (const JsonValue& item : place.value().items) {
-    scene.boundaries.push_back(read_boundary(r, Place(place, item), scene));
+    scene.boundaries.push_back(read_boundary(r, Place(place, item), gauges, scene));
   }
 }
 

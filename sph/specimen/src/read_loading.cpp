@@ -1,4 +1,6 @@
 // Quantities over time, and the components of a boundary that follow them.
+#include <cmath>
+
 #include "scene_reader.hpp"
 
 namespace fpz::specimen::detail {
@@ -69,6 +71,39 @@ constexpr std::array<ActuationKey, 3> actuation_keys = {{{"velocity", DriveKind:
                                                          {"displacement", DriveKind::displacement, "value", true},
                                                          {"force", DriveKind::force, "value", true}}};
 
+Servo read_servo(const InputReader& r, const Place& p, std::span<const std::string> gauges) {
+  constexpr std::array<std::string_view, 6> keys = {"servo", "rate", "speed", "ramp", "fastest", "time_constant"};
+  constexpr double fastest_times = 10.0;
+  r.known_keys(p, keys);
+  Servo s;
+  with(p, "servo", [&](const Place& q) {
+    const std::vector<std::string_view> names(gauges.begin(), gauges.end());
+    s.gauge = std::string(word(r, q, names).value_or(""));
+  });
+  with_required(r, p, "rate", [&](const Place& q) { s.rate = r.positive(q).value_or(1.0); });
+  with_required(r, p, "speed", [&](const Place& q) {
+    s.speed = r.number(q).value_or(1.0);
+    if (s.speed == 0.0) r.problem(q, "must be about as fast as the gauge asks for, and of the sign that lets it grow");
+  });
+  with(p, "ramp", [&](const Place& q) { s.ramp = not_negative(r, q).value_or(0.0); });
+  s.fastest = fastest_times * std::abs(s.speed);
+  with(p, "fastest", [&](const Place& q) { s.fastest = r.positive(q).value_or(s.fastest); });
+  with(p, "time_constant", [&](const Place& q) { s.time_constant = r.positive(q).value_or(0.0); });
+  return s;
+}
+
+Actuation read_actuation(const InputReader& r, const Place& p, const ActuationKey& key, const ActuationRules& rules) {
+  if (key.kind == DriveKind::velocity && p.value().is(JsonValue::Kind::object) && p.value().find("servo") != nullptr) {
+    Actuation a;
+    a.kind = DriveKind::steered;
+    a.servo = read_servo(r, p, rules.gauges);
+    a.course.value = a.servo->speed, a.course.ramp = a.servo->ramp;  // about: what checks and estimates go by
+    return a;
+  }
+  const CourseRules course{key.value, key.begins_at_zero, rules.first_stage, key.kind == DriveKind::displacement};
+  return {key.kind, read_time_course(r, p, course), 0.0};
+}
+
 void read_machine(const InputReader& r, const Place& boundary, Actuations& drive) {
   with(boundary, "machine_stiffness", [&](const Place& p) {
     if (!r.object(p, "the stiffness (N/m) of the driven components, \"x\" or \"y\"")) return;
@@ -133,7 +168,8 @@ TimeCourse read_time_course(const InputReader& r, const Place& p, const CourseRu
   return c;
 }
 
-bool read_actuations(const InputReader& r, const Place& boundary, bool first_stage, Actuations& drive) {
+bool read_actuations(const InputReader& r, const Place& boundary, const ActuationRules& rules, Actuations& drive,
+                     std::array<bool, 2>* stated) {
   bool any = false;
   Actuations read;
   for (const ActuationKey& k : actuation_keys) {
@@ -145,8 +181,7 @@ bool read_actuations(const InputReader& r, const Place& boundary, bool first_sta
         with(p, components[c], [&](const Place& q) {
           if (read[c])
             r.problem(q, "this component is driven twice: by one of \"velocity\", \"displacement\" and \"force\"");
-          CourseRules rules{k.value, k.begins_at_zero, first_stage, k.kind == DriveKind::displacement};
-          read[c] = Actuation{k.kind, read_time_course(r, q, rules), 0.0};
+          read[c] = read_actuation(r, q, k, rules);
         });
       }
     });
@@ -155,6 +190,7 @@ bool read_actuations(const InputReader& r, const Place& boundary, bool first_sta
     if (!read[c]) continue;
     if (drive[c]) read[c]->machine_stiffness = drive[c]->machine_stiffness;
     drive[c] = read[c];
+    if (stated != nullptr) (*stated)[c] = true;
   }
   read_machine(r, boundary, drive);
   return any;

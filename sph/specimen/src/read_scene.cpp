@@ -9,9 +9,10 @@ namespace {
 using namespace detail;
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 18> root_keys = {
-    "name",    "description", "source", "material",   "setting", "thickness", "spacing",   "shape", "holes",
-    "notches", "arrangement", "method", "boundaries", "loads",   "gauges",    "toughness", "stop",  "output"};
+constexpr std::array<std::string_view, 19> root_keys = {
+    "name",   "description", "source",  "material",    "setting", "thickness",  "spacing",
+    "shape",  "holes",       "notches", "arrangement", "method",  "boundaries", "loads",
+    "gauges", "toughness",   "stages",  "stop",        "output"};
 
 /// Puts what an object says in place of the same keys of the file that it names.
 void replace_members(JsonValue& file, const JsonValue& given) {
@@ -80,6 +81,15 @@ void read_header(const InputReader& r, const Place& root, Scene& scene) {
   with_required(r, root, "spacing", [&](const Place& p) { scene.spacing = r.positive(p).value_or(1.0); });
 }
 
+/// Names only: servos of the boundaries follow gauges, which look at boundaries.
+std::vector<std::string> gauge_names(const JsonValue& root) {
+  std::vector<std::string> names;
+  if (const JsonValue* gauges = root.find("gauges")) {
+    for (const JsonValue& g : gauges->items) names.push_back(g.key);
+  }
+  return names;
+}
+
 /// Paths of other files as they are valid from anywhere: the scene's copy in the output folder reads the same.
 void make_paths_absolute(JsonValue& root, const Scene& scene) {
   if (!scene.particles) return;
@@ -102,14 +112,15 @@ Scene read_tree(JsonValue& root, const std::string& origin, const io::ReadLimits
   }
   const auto material = read_material_of(r, root);
   const Place top(root);
+  const std::vector<std::string> gauges = gauge_names(root);
   with(top, "method", [&](const Place& p) { read_method(r, p, scene.options); });
   read_body(r, top, scene);
   read_arrangement(r, top, scene);
-  with_required(r, top, "boundaries", [&](const Place& p) { read_boundaries(r, p, scene); });
+  with_required(r, top, "boundaries", [&](const Place& p) { read_boundaries(r, p, gauges, scene); });
   with(top, "loads", [&](const Place& p) { read_loads(r, p, scene); });
   with_required(r, top, "gauges", [&](const Place& p) { read_gauges(r, p, scene); });
   read_toughness(r, root, scene);
-  with_required(r, top, "stop", [&](const Place& p) { read_stop(r, p, scene.stop); });
+  read_stages(r, top, gauges, scene);
   with(top, "output", [&](const Place& p) { read_output(r, p, scene.output); });
   if (material) {
     scene.parameters = material->parameters;

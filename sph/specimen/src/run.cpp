@@ -13,7 +13,7 @@
 #include "frame_writer.hpp"
 #include "recorder.hpp"
 #include "run_folder.hpp"
-#include "stop_rules.hpp"
+#include "stage_keeper.hpp"
 
 namespace fpz::specimen {
 namespace {
@@ -48,6 +48,7 @@ class Runner {
         schedule_(schedule_of(scene, run_.time_step())),
         recorder_(scene, specimen_),
         frames_(scene, specimen_, files_, schedule_.frame_every),
+        stages_(scene, specimen_, run_.time_step()),
         checkpointer_(scene, files_) {}
 
   RunResult go() {
@@ -58,10 +59,11 @@ class Runner {
     if (result.ending == Ending::interrupted) {
       save();
     } else {
-      write_end();
+      write_end(result);
     }
     result.history = recorder_.history();
     result.frames = frames_.frames();
+    result.stages = stages_.ended();
     result.seconds = seconds();
     if (result.ending != Ending::interrupted) sum_up(result);
     return result;
@@ -71,7 +73,7 @@ class Runner {
   void prepare() {
     io::make_writable_folder(request_.folder);
     if (request_.resume) {
-      checkpointer_.resume(run_, recorder_, frames_, earlier_);
+      checkpointer_.resume(run_, recorder_, frames_, stages_, earlier_);
     } else {
       io::require_absent({files_.scene, files_.history, files_.summary, files_.checkpoint, files_.frames},
                          request_.force);
@@ -91,6 +93,7 @@ class Runner {
   /// One step and what follows it. Gives `result` a reason when the run ends.
   void advance(RunResult& result) {
     const auto before = Clock::now();
+    stages_.steer(run_);
     const sph::Outcome outcome = run_.step();
     stepping_seconds_ += seconds_since(before);
     ++steps_here_;
@@ -103,7 +106,9 @@ class Runner {
     if (run_.steps() % schedule_.row_every == 0) {
       recorder_.add_row(run_);
       frames_.after_row(run_, recorder_);
-      result.reason = stop_reason({scene_, specimen_, schedule_, run_, recorder_});
+      bool changed = false;
+      result.reason = stages_.after_row(run_, recorder_, changed);
+      if (changed) frames_.write_last(run_);
       show_progress();
       if (!result.reason.empty()) return;
     }
@@ -116,9 +121,10 @@ class Runner {
   }
 
   /// The last row and frame of a run that has finished or failed.
-  void write_end() {
+  void write_end(const RunResult& result) {
     if (recorder_.has_steps()) recorder_.add_row(run_);
     frames_.write_last(run_);
+    stages_.finish(run_, result.reason);
     io::write_text(files_.history, recorder_.history().to_csv(), true);
   }
 
@@ -131,6 +137,7 @@ class Runner {
     const double alternation = run_.alternation() / largest_opening(run_);
     const Findings f = findings(scene_, result.history, opened_length(all, scene_.spacing), alternation);
     result.warnings = warnings_of(scene_, result.history, f);
+    result.warnings.insert(result.warnings.end(), stages_.warnings().begin(), stages_.warnings().end());
     const std::string closed = warning_of_closure(overlaps(), scene_.spacing);
     if (!closed.empty()) result.warnings.push_back(closed);
     const std::string error = error_of_the_model(scene_, f);
@@ -159,7 +166,7 @@ class Runner {
     return all;
   }
 
-  void save() { checkpointer_.save(run_, recorder_, frames_, seconds()); }
+  void save() { checkpointer_.save(run_, recorder_, frames_, stages_, seconds()); }
 
   [[nodiscard]] bool wanted_to_stop() const {
     return (request_.interrupt != nullptr && *request_.interrupt != 0) ||
@@ -199,6 +206,7 @@ class Runner {
   Schedule schedule_;
   Recorder recorder_;
   FrameWriter frames_;
+  StageKeeper stages_;
   Checkpointer checkpointer_;
   WallTimes earlier_;  ///< of the processes before this one
   double stepping_seconds_ = 0.0;
@@ -211,12 +219,16 @@ class Runner {
 Schedule schedule_of(const Scene& scene, double time_step) {
   Schedule s;
   s.time_step = time_step;
-  s.steps = std::max(1LL, std::llround(std::ceil(scene.stop.time / time_step)));
+  for (const Stage& stage : scene.stages) s.steps += steps_within(stage.stop.time, time_step);
   s.row_every = std::max(1LL, s.steps / scene.output.history_rows);
   if (scene.output.frames > 0) {
     s.frame_every = s.row_every * std::max(1LL, s.steps / s.row_every / scene.output.frames);
   }
   return s;
+}
+
+long long steps_within(double time, double time_step) {
+  return std::max(1LL, std::llround(std::ceil(time / time_step)));
 }
 
 RunResult run_scene(const Scene& scene, const RunRequest& request) {

@@ -94,17 +94,24 @@ struct CourseRules {
   static constexpr std::array<std::string_view, 1> words = {"hold"};
 };
 [[nodiscard]] TimeCourse read_time_course(const InputReader& r, const Place& place, const CourseRules& rules);
+struct ActuationRules {
+  bool first_stage = true;
+  std::span<const std::string> gauges;  ///< of the scene, by name: what a servo may follow
+};
 /// The driven components of a boundary, and the machine that drives them, in place of those in `drive`. False when it
-/// names none.
-bool read_actuations(const InputReader& r, const Place& boundary, bool first_stage, Actuations& drive);
+/// names none. `stated` tells which components change.
+bool read_actuations(const InputReader& r, const Place& boundary, const ActuationRules& rules, Actuations& drive,
+                     std::array<bool, 2>* stated = nullptr);
 
-void read_boundaries(const InputReader& r, const Place& place, Scene& scene);
+void read_boundaries(const InputReader& r, const Place& place, std::span<const std::string> gauges, Scene& scene);
 void read_loads(const InputReader& r, const Place& place, Scene& scene);
 void read_method(const InputReader& r, const Place& place, sph::Options<2>& options);
 void read_gauges(const InputReader& r, const Place& place, Scene& scene);
 /// After the body and the boundaries. The content of a file with factors takes the place of its name in `root`.
 void read_toughness(const InputReader& r, JsonValue& root, Scene& scene);
-void read_stop(const InputReader& r, const Place& place, StopRules& stop);
+void read_stop(const InputReader& r, const Place& place, const Scene& scene, StopRules& stop);
+/// "stages", or the one stage of "stop"; after boundaries, loads and gauges.
+void read_stages(const InputReader& r, const Place& root, std::span<const std::string> gauges, Scene& scene);
 void read_output(const InputReader& r, const Place& place, OutputRules& output);
 
 }  // namespace fpz::specimen::detail

@@ -10,12 +10,17 @@ namespace fpz::specimen::detail {
 struct StopState {
   const Scene& scene;
   const Specimen& specimen;
-  const Schedule& schedule;
+  const Stage& stage;
   const sph::Simulation<2>& run;
   const Recorder& recorder;
+  long long steps;   ///< of the stage so far
+  double time_step;  ///< s
+  std::size_t rows;  ///< of the stage so far
 };
 
-/// Which rule ends the run, in words; empty when none does.
+/// Which rule ends the stage, in words; empty when none does.
 [[nodiscard]] std::string stop_reason(const StopState& state);
+/// What it says when the time is over.
+[[nodiscard]] std::string stop_reason_of_time();
 
 }  // namespace fpz::specimen::detail

@@ -74,6 +74,18 @@ Json material_json(const Scene& scene) {
   return j;
 }
 
+Json stages_json(const std::vector<EndedStage>& stages) {
+  Json list = Json::array();
+  for (const EndedStage& s : stages) {
+    list.push_back({{"name", s.name},
+                    {"ended_by", s.reason},
+                    {"begin", s.begin},
+                    {"end", s.end},
+                    {"kinetic_over_elastic", number(s.kinetic_ratio)}});
+  }
+  return list;
+}
+
 Json energies_json(const History& h) {
   Json j;
   if (h.rows() == 0) return j;
@@ -225,6 +237,7 @@ std::string summary_text(const SummaryInput& in) {
   j["compiler"] = __VERSION__;
   j["status"] = fpz::to_string(in.result.ending);
   j["reason"] = in.result.reason;
+  j["stages"] = stages_json(in.result.stages);
   j["warnings"] = in.result.warnings;
   std::vector<std::string> doubtful = in.scene.warnings;
   doubtful.insert(doubtful.end(), in.specimen.warnings.begin(), in.specimen.warnings.end());

@@ -22,12 +22,22 @@ std::string plate(const std::string& more, const std::string& shape = R"({"type"
          shape + ", " + more + "}";
 }
 
-RunResult run(const std::string& text, const std::string& folder, long long steps = 0, bool resume = false) {
+/// To its end, interrupted every so many steps (0: never).
+RunResult run(const Scene& scene, const std::string& folder, long long steps = 0) {
   RunRequest request;
-  request.folder = resume ? fs::path(folder) : fpz::test::fresh_path(folder);
+  request.folder = fpz::test::fresh_path(folder);
   request.most_steps = steps;
   request.threads = 1;
-  return run_scene(parse_scene(text, "/elsewhere/scene.json"), request);
+  RunResult r = run_scene(scene, request);
+  while (r.ending == Ending::interrupted) {
+    request.resume = true;
+    r = run_scene(scene, request);
+  }
+  return r;
+}
+
+RunResult run(const std::string& text, const std::string& folder, long long steps = 0) {
+  return run(parse_scene(text, "/elsewhere/scene.json"), folder, steps);
 }
 
 std::string complaint(const std::string& text) {
@@ -69,6 +79,210 @@ TEST(LoadingRun, PressuresMakeTheStressesOfTheClosedForm) {
     const double density = (a * a + b * b + z * z - 2.0 * nu * (a * b + b * z + z * a)) / (2.0 * e);
     EXPECT_NEAR(h.last("energy_elastic"), density * 0.04 * 0.02 * 0.05, 0.12 * h.last("energy_elastic"));
   }
+}
+
+/// A plate 20 mm wide and 60 mm high between bonded platens that are free along x: pressure on its sides first, held
+/// while the upper platen then moves; last that platen's force goes back to nothing.
+const std::string upright = R"({"type": "rectangle", "low": [-0.01, -0.03], "high": [0.01, 0.03]})";
+const std::string confined = R"("boundaries": [
+    {"name": "base", "at": [0, -0.03], "direction": [0, -1], "width": 0.02, "velocity": {"y": 0}},
+    {"name": "top", "at": [0, 0.03], "direction": [0, 1], "width": 0.02, "force": {"y": 0}}],
+  "loads": [{"name": "sides", "pressure": {"value": 10e6, "ramp": 2e-4}, "on": [{"low": [-0.01, -0.03],
+    "high": [-0.01, 0.03]}, {"low": [0.01, -0.03], "high": [0.01, 0.03]}]}],
+  "gauges": {"load": {"force_on": "top", "direction": [0, -1]}, "support": {"force_on": "base", "direction": [0, 1]},
+    "deflection": {"displacement_of": "top", "relative_to": "base", "direction": [0, -1]},
+    "stretch": {"displacement_of": {"low": [-0.01, 0.0185], "high": [0.01, 0.0215]},
+      "relative_to": {"low": [-0.01, -0.0215], "high": [0.01, -0.0185]}, "direction": [0, 1]},
+    "sxx": {"stress": "xx", "of": {"point": [0, 0], "radius": 0.004}},
+    "syy": {"stress": "yy", "of": {"point": [0, 0], "radius": 0.004}}},
+  "output": {"frames": 0, "pictures": false, "history_rows": 400, "checkpoint_seconds": 0},)";
+const std::string confined_stages = R"("stages": [
+    {"name": "confine", "damping": 0.4, "stop": {"time": 2e-3, "kinetic_below": 1e-6}},
+    {"name": "compress", "damping": 0.0,
+     "boundaries": {"top": {"velocity": {"y": {"speed": -0.02, "ramp": 2e-4}}}},
+     "stop": {"time": 2e-3, "gauges": {"deflection": {"above": 30e-6}}}},
+    {"name": "let go", "damping": 0.3, "loads": {"sides": "hold"},
+     "boundaries": {"top": {"force": {"y": {"value": 0, "ramp": 3e-4}}}},
+     "stop": {"time": 2e-3, "kinetic_below": 1e-6}}])";
+
+std::size_t row_at(const History& h, double time) {
+  std::size_t row = 0;
+  while (row + 1 < h.rows() && h.at(row, "time") < time) ++row;
+  return row;
+}
+
+/// Plane strain with sxx held: the platen feels E/(1 - nu^2), and sxx stays what the first stage has made it.
+TEST(LoadingRun, StagesHoldAPressureWhileAPlatenMoves) {
+  for (const char* configuration : {"reference", "updated"}) {
+    const std::string method =
+        std::string(R"("method": {"artificial_stress": 0, "configuration": ")") + configuration + R"("}, )";
+    const RunResult r =
+        run(plate(confined + method + confined_stages, upright), std::string("stages_") + configuration);
+    ASSERT_EQ(r.ending, Ending::finished) << r.reason;
+    for (const std::string& w : r.warnings) EXPECT_EQ(w.find("stage"), std::string::npos) << w;
+    ASSERT_EQ(r.stages.size(), 3u);
+    EXPECT_NE(r.stages[0].reason.find("stop.kinetic_below"), std::string::npos);
+    EXPECT_NE(r.stages[1].reason.find("stop.gauges"), std::string::npos);
+    EXPECT_NE(r.reason.find("stop.kinetic_below"), std::string::npos);
+    EXPECT_LT(r.stages[0].kinetic_ratio, 1e-6);
+    EXPECT_EQ(r.stages[1].begin, r.stages[0].end);
+    const History& h = r.history;
+    const std::size_t begin = row_at(h, r.stages[0].end), end = row_at(h, r.stages[1].end);
+    EXPECT_NEAR(h.at(begin, "sxx"), -10e6, 0.01 * 10e6) << configuration;
+    EXPECT_NEAR(h.at(begin, "load"), 0.0, 1e-6 * 20e3);
+    EXPECT_NEAR(h.at(end, "sxx"), -10e6, 0.01 * 10e6) << configuration;
+    EXPECT_GE(h.at(end, "deflection"), 30e-6);
+    const double wanted = 50e9 / (1.0 - 0.0625) * (h.at(end, "stretch") - h.at(begin, "stretch")) / 0.04;
+    EXPECT_NEAR(h.at(end, "syy") - h.at(begin, "syy"), wanted, 0.01 * std::abs(wanted)) << configuration;
+    EXPECT_NEAR(h.at(end, "support"), h.at(end, "load"), 0.03 * h.at(end, "load"));
+    // Back where the first stage had ended: the pressure is held, the force is gone.
+    EXPECT_NEAR(h.last("load"), 0.0, 1e-3 * h.at(end, "load"));
+    EXPECT_NEAR(h.last("deflection"), h.at(begin, "deflection"), 0.01 * h.at(end, "deflection"));
+    EXPECT_NEAR(h.last("sxx"), h.at(begin, "sxx"), 0.01 * 10e6);
+    EXPECT_LT(std::abs(h.last("energy_error")), 5e-3 * h.at(end, "energy_external"));
+  }
+}
+
+/// Interrupted in every stage and between them, the history has the same bits.
+TEST(LoadingRun, StagesGoOnBitForBit) {
+  const std::string text = plate(confined + confined_stages, upright);
+  const RunResult whole = run(text, "stages_whole");
+  for (const long long steps : {1501}) {
+    const RunResult part = run(text, "stages_parts", steps);
+    EXPECT_EQ(part.reason, whole.reason);
+    EXPECT_EQ(part.history.to_csv(), whole.history.to_csv());
+    ASSERT_EQ(part.stages.size(), whole.stages.size());
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(part.stages[k].end, whole.stages[k].end);
+  }
+}
+
+TEST(LoadingRun, AStageThatIsNotAtRestSaysSo) {
+  const RunResult r = run(plate(roller + gauges + R"("loads": [{"name": "end", "on": {"low": [0.02, -0.01],
+    "high": [0.02, 0.01]}, "pressure": {"value": 20e6, "ramp": 1e-6}}], "output": {"frames": 0, "pictures": false},
+    "stages": [{"name": "hit", "stop": {"time": 1e-4, "kinetic_below": 1e-3}},
+               {"loads": {"end": {"table": [[0, 10e6], [1e-5, 0]]}}, "stop": {"time": 2e-5}}])"),
+                          "not_at_rest");
+  std::string all;
+  for (const std::string& w : r.warnings) all += w + "\n";
+  EXPECT_NE(all.find("stage \"hit\" ended by its time before it was at rest"), std::string::npos) << all;
+  EXPECT_NE(all.find("stage \"2\": end jumps from 2e+07 to 1e+07"), std::string::npos) << all;
+}
+
+TEST(LoadingRun, WhatIsWrongWithAStageIsNamed) {
+  const auto said = [](const std::string& stages) { return complaint(plate(confined + stages, upright)); };
+  const auto stage = [&](const std::string& what) {
+    return said(R"("stages": [{"stop": {"time": 1e-3}}, {"stop": {"time": 1e-3}, )" + what + "}]");
+  };
+  EXPECT_EQ(said(confined_stages), "");
+  EXPECT_NE(said(R"("stop": {"time": 1}, "stages": [{"stop": {"time": 1}}])").find("has its own \"stop\""),
+            std::string::npos);
+  EXPECT_NE(said(R"("stages": [{"name": "x"}])").find("stages[0]: missing key \"stop\""), std::string::npos);
+  EXPECT_NE(said(R"("stages": [{"stop": {"time": 1, "gauges": {"loads": {"above": 1}}}}])")
+                .find("there is no gauge \"loads\"; did you mean \"load\"?"),
+            std::string::npos);
+  EXPECT_NE(stage(R"("boundaries": {"tip": {"force": {"y": 0}}})").find("did you mean \"top\"?"), std::string::npos);
+  EXPECT_NE(stage(R"("boundaries": {"top": {"velocity": {"x": 0}}})").find("component x is free in \"boundaries\""),
+            std::string::npos);
+  EXPECT_NE(stage(R"("boundaries": {"top": {"width": 1}})").find("unknown key \"width\""), std::string::npos);
+  EXPECT_NE(stage(R"("loads": {"side": "hold"})").find("did you mean \"sides\"?"), std::string::npos);
+  EXPECT_NE(stage(R"("loads": {"sides": 5e6})").find("would act at once"), std::string::npos);
+  EXPECT_NE(stage(R"("damping": 2)").find("stages[1].damping"), std::string::npos);
+  EXPECT_NE(stage(R"("boundaries": {"top": {"velocity": {"y": {"servo": "cmod", "rate": 1, "speed": 1}}}})")
+                .find("unknown choice \"cmod\""),
+            std::string::npos);
+  EXPECT_NE(stage(R"("boundaries": {"top": {"velocity": {"y": {"servo": "sxx", "rate": 0, "speed": 0}}}})")
+                .find("rate: 0: must be > 0"),
+            std::string::npos);
+}
+
+double largest(const History& h, const char* column, std::size_t from = 0) {
+  double most = -1e300;
+  for (std::size_t r = from; r < h.rows(); ++r) most = std::max(most, h.at(r, column));
+  return most;
+}
+
+Scene coarse_beam(const char* name, const Overrides& more) {
+  Overrides set = {"output.history_rows=400", "output.frames=0", "output.pictures=false"};
+  set.insert(set.end(), more.begin(), more.end());
+  return read_scene(fs::path(FPZ_DATA_DIR) / "scenes" / name, set);
+}
+
+/// The beam at 8 mm: CMOD grows as asked for through peak and softening, and the peak is that under control of the
+/// deflection; bits stay when it is interrupted.
+TEST(LoadingRun, AServoLetsTheCrackMouthOpenSteadily) {
+  const double rate = 2.5e-3, ramp = 4e-3;
+  const Scene scene = coarse_beam("beam_cmod.json", {"spacing=0.008", "stop.time=0.02"});
+  const History h = run(scene, "servo").history;
+  const History other =
+      run(coarse_beam("beam_cmod.json", {"spacing=0.008", "stop.time=0.015",
+                                         R"(boundaries[0].velocity.y={"speed": -2.5e-3, "ramp": 4e-3})"}),
+          "no_servo")
+          .history;
+  EXPECT_NEAR(largest(h, "load"), largest(other, "load"), 0.01 * largest(other, "load"));
+  EXPECT_LT(h.last("load"), 0.6 * largest(h, "load"));
+  // From before the peak, which is near 10 um, to the end: the opening is on its line, which the ramp delays by its
+  // half.
+  for (std::size_t r = 0; r < h.rows(); ++r) {
+    const double wanted = rate * (h.at(r, "time") - 0.5 * ramp);
+    if (wanted < 8e-6) continue;
+    EXPECT_NEAR(h.at(r, "cmod"), wanted, wanted < 20e-6 ? 2e-6 : 0.05 * wanted) << wanted;
+  }
+  const std::size_t from = row_at(h, 5.6e-3), to = row_at(h, 14e-3);  // 9 to 30 um
+  const double mean = (h.at(to, "cmod") - h.at(from, "cmod")) / (h.at(to, "time") - h.at(from, "time"));
+  EXPECT_NEAR(mean, rate, 0.03 * rate);
+  EXPECT_EQ(run(scene, "servo_parts", 5001).history.to_csv(), h.to_csv());
+}
+
+/// A brittle beam in a machine: at constant speed of the machine the crack jumps, under control of the opening the
+/// machine goes back while the crack opens further.
+TEST(LoadingRun, AServoGoesBackWithASnapBack) {
+  const double machine = 2.4e8, rate = 4e-4;
+  const auto with = [&](const std::string& velocity) {
+    return coarse_beam("beam_cmod.json", {"spacing=0.005", "material.delta0=4e-6", "stop.time=0.04", velocity,
+                                          R"(boundaries[0].machine_stiffness={"y": 2.4e8})",
+                                          R"(stop.gauges={"cmod": {"above": 6.9e-6}})"});
+  };
+  const RunResult led = run(with(R"(boundaries[0].velocity.y={"servo": "cmod", "rate": 4e-4, "speed": -8e-4,
+      "ramp": 6e-3, "fastest": 0.05, "time_constant": 4.5e-4})"),
+                            "led");
+  const RunResult jumped = run(with(R"(boundaries[0].velocity.y={"speed": -8e-4, "ramp": 6e-3})"), "jumped");
+  for (const RunResult* r : {&led, &jumped}) EXPECT_NE(r->reason.find("stop.gauges"), std::string::npos);
+  const auto fastest = [](const History& h) {
+    double most = 0.0;
+    for (std::size_t row = 5; row < h.rows(); ++row) {
+      most = std::max(most, (h.at(row, "cmod") - h.at(row - 5, "cmod")) / (h.at(row, "time") - h.at(row - 5, "time")));
+    }
+    return most;
+  };
+  double furthest = 0.0, back = 0.0, opening = 0.0, load = 0.0;
+  for (std::size_t row = 0; row < led.history.rows(); ++row) {
+    const double drive = led.history.at(row, "load_point") + led.history.at(row, "load") / machine;
+    if (drive > furthest) furthest = drive, opening = led.history.at(row, "cmod"), load = led.history.at(row, "load");
+    if (led.history.at(row, "cmod") > opening && led.history.at(row, "load") < load)
+      back = std::max(back, furthest - drive);
+  }
+  EXPECT_GT(back, 0.03 * furthest);
+  EXPECT_LT(fastest(led.history), 5.0 * rate);
+  EXPECT_GT(fastest(jumped.history), 10.0 * rate);
+}
+
+/// The shipped scene at 5 mm: the pressure stays while the platens close in, and the stiffness is that of plane strain
+/// with the lateral stress held.
+TEST(LoadingRun, ConfinedCompressionHoldsItsPressure) {
+  const Scene scene = read_scene(fs::path(FPZ_DATA_DIR) / "scenes/confined_compression.json",
+                                 {"spacing=0.005", "output.frames=0", "output.pictures=false",
+                                  R"(stages[1].stop={"time": 0.006, "gauges": {"stretch": {"below": -40e-6}}})"});
+  const RunResult r = run(scene, "confined");
+  ASSERT_EQ(r.stages.size(), 2u);
+  EXPECT_NE(r.stages[0].reason.find("stop.kinetic_below"), std::string::npos);
+  EXPECT_NE(r.reason.find("stop.gauges"), std::string::npos);
+  const History& h = r.history;
+  const std::size_t begin = row_at(h, r.stages[0].end);
+  EXPECT_NEAR(h.at(begin, "sxx"), -10e6, 0.02 * 10e6);  // ten rows wide
+  EXPECT_NEAR(h.last("sxx"), -10e6, 0.03 * 10e6);
+  const double nu = scene.parameters.poisson_ratio, modulus = scene.parameters.young_modulus / (1.0 - nu * nu);
+  const double wanted = modulus * (h.last("stretch") - h.at(begin, "stretch")) / 0.05;
+  EXPECT_NEAR(h.last("syy") - h.at(begin, "syy"), wanted, 0.02 * std::abs(wanted));
 }
 
 TEST(LoadingRun, WhatIsWrongWithALoadIsNamed) {

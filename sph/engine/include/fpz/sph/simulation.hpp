@@ -79,8 +79,8 @@ class Simulation {
   [[nodiscard]] Vec<double, Dim> reaction(std::size_t group) const;
   /// Velocity that a group has by its drives, m/s, half a step ahead; zero in free components.
   [[nodiscard]] Vec<double, Dim> velocity(std::size_t group) const;
-  /// Present factor of a load times the sum of its forces, N (per metre of thickness in 2-D).
-  [[nodiscard]] Vec<double, Dim> load(std::size_t index) const;
+  /// Of a load, at the last full step.
+  [[nodiscard]] double factor(std::size_t load) const;
 
   /// Changes what drives a component of a group from now on; its force goes on without a jump where the machine has a
   /// stiffness. Throws std::invalid_argument for components that are free, and for tables with problems.

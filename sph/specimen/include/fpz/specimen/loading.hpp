@@ -31,11 +31,22 @@ struct TimeCourse {
   [[nodiscard]] double largest() const;
 };
 
+/// A velocity that follows so that a gauge grows at a rate (src/servo.hpp).
+struct Servo {
+  std::string gauge;
+  double rate = 0.0;           ///< of the gauge, its unit per second, > 0
+  double ramp = 0.0;           ///< s, within which the rate is reached
+  double speed = 0.0;          ///< m/s: its sign is the direction in which the gauge grows
+  double fastest = 0.0;        ///< m/s, > 0: largest speed in either direction
+  double time_constant = 0.0;  ///< s; 0: from the scene
+};
+
 /// How one component of a boundary is driven.
 struct Actuation {
   sph::Drive::Kind kind = sph::Drive::Kind::velocity;
   TimeCourse course;
-  double machine_stiffness = 0.0;  ///< N/m, for the whole thickness; 0: rigid
+  double machine_stiffness = 0.0;             ///< N/m, for the whole thickness; 0: rigid
+  std::optional<Servo> servo = std::nullopt;  ///< of a steered component
 
   /// For the engine, from `time` on (s), where velocity (m/s) and force (N, for the whole thickness) are the present
   /// ones.

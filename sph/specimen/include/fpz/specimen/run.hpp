@@ -40,12 +40,21 @@ struct WallTimes {
   double all = 0.0;
 };
 
+/// A stage that is over.
+struct EndedStage {
+  std::string name;
+  std::string reason;             ///< which rule ended it
+  double begin = 0.0, end = 0.0;  ///< s
+  double kinetic_ratio = 0.0;     ///< kinetic over elastic energy at its end; NaN where nothing is strained
+};
+
 struct RunResult {
   Ending ending = Ending::finished;
   std::string reason;  ///< which rule ended it, or what failed
   History history;
   std::vector<Frame> frames;
   WallTimes seconds;
+  std::vector<EndedStage> stages;
   std::vector<std::string> warnings;
   std::string report;  ///< the main figures, for a person
 };
@@ -67,6 +76,8 @@ struct Schedule {
   long long steps = 0, row_every = 1, frame_every = 0;  ///< frame_every 0: none
 };
 [[nodiscard]] Schedule schedule_of(const Scene& scene, double time_step);
+/// Steps after which a time (s) is over.
+[[nodiscard]] long long steps_within(double time, double time_step);
 
 }  // namespace fpz::specimen
 

@@ -31,12 +31,31 @@ struct Boundary {
   bool elastic = true;
 };
 
-/// When a run ends. The time always counts; the others when they are given.
+/// A gauge beyond a value.
+struct GaugeLimit {
+  std::string gauge;
+  bool above = true;
+  double value = 0.0;
+};
+
+/// When a stage ends. The time always counts; the others when they are given.
 struct StopRules {
-  double time = 0.0;                 ///< s
+  double time = 0.0;                 ///< s, of the stage
   std::optional<double> deflection;  ///< m
   std::optional<double> load_below;  ///< fraction of the peak, once something has cracked
   bool separation = false;           ///< the specimen is in two pieces
+  std::vector<GaugeLimit> gauges;
+  std::optional<double> kinetic_below;  ///< kinetic over elastic energy: at rest
+};
+
+/// What changes when a stage begins, and when it ends. What the first one changes is in the boundaries, loads and
+/// options of the scene.
+struct Stage {
+  std::string name;
+  std::vector<std::pair<std::size_t, Actuations>> boundaries;  ///< index, and the components that change
+  std::vector<std::pair<std::size_t, TimeCourse>> loads;       ///< index, and how its value goes on
+  std::optional<double> damping;
+  StopRules stop;
 };
 
 struct OutputRules {
@@ -67,7 +86,8 @@ struct Scene {
   sph::Options<2> options;
   std::map<std::string, Gauge> gauges;  ///< "load" and "deflection" are always there
   std::optional<SemicircularBending> toughness;
-  StopRules stop;
+  std::vector<Stage> stages;  ///< at least one
+  StopRules stop;             ///< of the last stage; its time is that of all stages
   OutputRules output;
 
   std::vector<std::string> warnings;  ///< doubtful but admissible
