@@ -40,6 +40,10 @@ Energies Engine<Dim>::energies() const {
     }
   }
   sum.zero_energy = control ? control->stored() : 0.0;
+  if (contact) {
+    sum.contact = contact->stored();
+    sum.friction = contact->taken() - sum.contact;
+  }
   sum.viscous = ledger.zero_energy;
   for (const double w : ledger.viscous) sum.viscous += w;
   for (const double w : ledger.damping) sum.damping += w;

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "body.hpp"
+#include "contact.hpp"
 #include "zero_energy_control.hpp"
 
 namespace fpz::sph::detail {
@@ -14,6 +15,7 @@ struct Engine {
   Boundaries<Dim> boundaries;
   std::unique_ptr<Body<Dim>> body;
   std::optional<ZeroEnergyControl<Dim>> control;
+  std::optional<Contact<Dim>> contact;
 
   /// A run with the given time step, s.
   Engine(const RunSetup<Dim>& setup, double time_step);

@@ -16,6 +16,9 @@ Engine<Dim>::Engine(const RunSetup<Dim>& setup, double time_step)
   if (options.configuration == Configuration::reference && options.zero_energy_control > 0.0) {
     control.emplace(run, options.zero_energy_control);
   }
+  if (options.configuration == Configuration::reference && options.contact_stiffness > 0.0) {
+    contact.emplace(run, boundaries);
+  }
 }
 
 template <int Dim>
@@ -43,16 +46,20 @@ void Engine<Dim>::start() {
 /// Forces at n, velocities to n + 1/2 over `step` (s).
 template <int Dim>
 void Engine<Dim>::kick(double step) {
+  const bool touching = contact && contact->prepare();
   View<Dim> view = run.view;
   view.step = step;
   view.work_before = run.started ? 0.5 * run.dt : 0.0;
   view.work_after = 0.5 * run.dt;
   if (control) control->act();
+  view.pushed = view.pushed || touching;
   if (view.pushed) {
     for (Field& f : run.outer_force) std::fill(f.begin(), f.end(), 0.0);
     for (const auto& boundary : boundaries) boundary->push();
+    if (touching) contact->push();
   }
   body->force(view);
+  if (contact) contact->act(step);
   for (const auto& boundary : boundaries) boundary->act(step);
 }
 

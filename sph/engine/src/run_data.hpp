@@ -34,7 +34,7 @@ struct RunData {
   Particles<Dim> particles;
   std::vector<std::size_t> slot_of;
   Fields<Dim> damping;      ///< 1 where local damping acts, 0 where the component is driven
-  Fields<Dim> outer_force;  ///< of boundaries that push at n, N
+  Fields<Dim> outer_force;  ///< of boundaries that push and of closed faces at n, N
   Mask flagged;             ///< of the last pass: the library must update the particle
   Mask bad;                 ///< of the last pass, per block: a velocity is out of bounds
   WorkLedger<Dim> ledger;

@@ -140,6 +140,11 @@ double Simulation<Dim>::alternation() const {
 }
 
 template <int Dim>
+double Simulation<Dim>::overlap() const {
+  return engine_->contact ? engine_->contact->overlap() : std::nan("");
+}
+
+template <int Dim>
 double Simulation<Dim>::mean_neighbours() const {
   std::size_t n = 0;
   for (const std::vector<int>& list : engine_->body->lists()) n += list.size();

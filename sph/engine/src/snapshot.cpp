@@ -10,7 +10,7 @@ namespace fpz::sph {
 
 namespace {
 
-constexpr std::uint64_t magic = 0x364850535a5046ULL;  // "FPZSPH6"; the last figure is the version
+constexpr std::uint64_t magic = 0x374850535a5046ULL;  // "FPZSPH7"; the last figure is the version
 
 /// Adds the options on which the result depends.
 struct OptionPrint {
@@ -46,7 +46,8 @@ std::uint64_t fingerprint(const RunSetup<Dim>& s) {
   w(s.arrangement.group);
   for (const auto& line : s.arrangement.surface) w(line);
   w(s.velocity);
-  for (const Cut<Dim>& cut : s.arrangement.cuts) w(cut.corner), w(cut.is_tip);
+  for (const Cut<Dim>& cut : s.arrangement.cuts)
+    w(cut.corner), w(cut.is_tip), w(cut.width), w(cut.gap), w(cut.friction);
   for (const Group<Dim>& g : s.groups) {
     w(g.elastic);
     for (const std::optional<Drive>& d : g.drive) {
@@ -95,6 +96,7 @@ void Engine<Dim>::save(Writer& archive) const {
   body->save(archive);
   for (const auto& boundary : boundaries) boundary->save(archive);
   if (control) control->save(archive);
+  if (contact) contact->save(archive);
 }
 
 template <int Dim>
@@ -104,6 +106,7 @@ void Engine<Dim>::load(Reader& archive) {
   body->load(archive);
   for (const auto& boundary : boundaries) boundary->load(archive);
   if (control) control->load(archive);
+  if (contact) contact->load(archive);
 }
 
 template void Engine<2>::save(Writer&) const;

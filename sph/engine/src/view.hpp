@@ -47,7 +47,7 @@ struct View {
   double* zero_energy_force[d] = {};
   double* rotation[2] = {};
   const double* damping[d] = {};      // per component: 1, zero where the velocity is driven
-  const double* outer_force[d] = {};  // of boundaries that push
+  const double* outer_force[d] = {};  // of boundaries that push and of closed faces
   unsigned char* flagged = nullptr;
 
   // Per block: work so far, and what the force at n will have done by n + 1/2.

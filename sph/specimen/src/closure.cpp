@@ -48,7 +48,19 @@ std::string warning_of_closure(const std::vector<double>& overlap, double spacin
   if (s.str().empty()) return "";
   return s.str() +
          ": they should press on each other, but nothing passes between them, so that the specimen is too soft and too "
-         "weak; leave out a notch that is closed, or give it the width that it has";
+         "weak; \"configuration\": \"reference\" with a contact_stiffness above 0 has contact; or leave out a notch "
+         "that is "
+         "closed, or give it the width that it has";
+}
+
+std::string warning_of_overlap(double overlap, double spacing) {
+  constexpr double noticed = 1e-2;  // spacings
+  if (!(overlap > noticed * spacing)) return "";
+  std::ostringstream s;
+  s.precision(3);
+  s << "faces in contact are " << 1e6 * overlap << " um inside each other, " << 100.0 * overlap / spacing
+    << " % of a spacing: contact_stiffness is too small for this pressure";
+  return s.str();
 }
 
 }  // namespace fpz::specimen

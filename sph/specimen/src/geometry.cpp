@@ -211,6 +211,8 @@ sph::Cut<2> cut_of(const Notch& n) { return {{n.mouth, n.tip}, {}}; }
 sph::Cut<2> cut_in(const Body& body, const Notch& n, double spacing) {
   const Point beyond = 0.5 * spacing * along(n);
   sph::Cut<2> cut = cut_of(n);
+  cut.width = n.width;
+  cut.gap = std::max(n.width, n.asked_width);
   if (n.width <= 0.0) cut.is_tip = {contains(body, n.mouth - beyond), contains(body, n.tip + beyond)};
   return cut;
 }

@@ -7,7 +7,7 @@
 namespace fpz::specimen::detail {
 namespace {
 
-constexpr std::array<std::string_view, 4> notch_keys = {"mouth", "length", "angle_deg", "width"};
+constexpr std::array<std::string_view, 5> notch_keys = {"mouth", "length", "angle_deg", "width", "friction_angle_deg"};
 constexpr std::array<std::string_view, 1> widths = {"narrowest"};
 constexpr double mouth_of_surface = 0.5;  ///< spacings below it up to which a mouth is one
 
@@ -28,6 +28,9 @@ Notch read_notch(const InputReader& r, const Place& place, double narrowest, dou
     n.asked_width = by_word ? narrowest : not_negative(r, p).value_or(0.0);
     n.width = n.asked_width < spacing ? 0.0 : n.asked_width;
     if (by_word) (void)word(r, p, widths);
+  });
+  with(place, "friction_angle_deg", [&](const Place& p) {
+    if (const auto a = r.number_between(p, 0.0, 89.0, true)) n.friction_angle_deg = *a;
   });
   n.tip = n.mouth + length * Point(-std::sin(angle), std::cos(angle));
   return n;

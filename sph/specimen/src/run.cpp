@@ -138,7 +138,9 @@ class Runner {
     const Findings f = findings(scene_, result.history, opened_length(all, scene_.spacing), alternation);
     result.warnings = warnings_of(scene_, result.history, f);
     result.warnings.insert(result.warnings.end(), stages_.warnings().begin(), stages_.warnings().end());
-    const std::string closed = warning_of_closure(overlaps(), scene_.spacing);
+    const double overlap = run_.overlap();
+    const std::string closed = std::isnan(overlap) ? warning_of_closure(overlaps(), scene_.spacing)
+                                                   : warning_of_overlap(overlap, scene_.spacing);
     if (!closed.empty()) result.warnings.push_back(closed);
     const std::string error = error_of_the_model(scene_, f);
     if (!error.empty()) {

@@ -121,7 +121,11 @@ Specimen make_specimen(const Scene& scene) {
   } catch (const std::invalid_argument& e) {
     fail(scene, e.what());
   }
-  for (const Notch& n : scene.body.notches) s.setup.arrangement.cuts.push_back(cut_in(scene.body, n, scene.spacing));
+  for (const Notch& n : scene.body.notches) {
+    sph::Cut<2> cut = cut_in(scene.body, n, scene.spacing);
+    cut.friction = std::tan(degree * n.friction_angle_deg.value_or(scene.parameters.friction_angle_deg));
+    s.setup.arrangement.cuts.push_back(cut);
+  }
   if (!scene.particles) s.setup.arrangement.surface = surface_lines(scene.body, 0.25 * scene.spacing);
   const sph::Arrangement<2>& a = s.setup.arrangement;
   for (const Notch& n : scene.body.notches) {

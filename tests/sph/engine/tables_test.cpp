@@ -12,10 +12,11 @@ namespace {
 
 /// As many members as the table has entries: the binding does not compile with another number of either.
 TEST(OptionTable, HasEveryMember) {
-  static_assert(option_count<2> == 19);
+  static_assert(option_count<2> == 20);
   const Options<2> o;
-  const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, p, q, r, s, t] = o;
-  const std::set<const void*> members = {&a, &b, &c, &d, &e, &f, &g, &h, &i, &j, &k, &l, &m, &n, &p, &q, &r, &s, &t};
+  const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, p, q, r, s, t, u] = o;
+  const std::set<const void*> members = {&a, &b, &c, &d, &e, &f, &g, &h, &i, &j,
+                                         &k, &l, &m, &n, &p, &q, &r, &s, &t, &u};
   std::set<const void*> visited;
   std::set<std::string_view> names;
   for_each_option(o, [&](const OptionInfo& info, const auto& member) {
@@ -119,7 +120,7 @@ TEST(OptionTable, EveryNumberIsChecked) {
     ASSERT_EQ(problems(s).size(), 1U) << name;
     EXPECT_NE(problems(s).front().find(name), std::string::npos) << problems(s).front();
   }
-  EXPECT_EQ(numbers, 13U);
+  EXPECT_EQ(numbers, 14U);
 }
 
 /// What a file may state is what a run accepts.
@@ -132,7 +133,7 @@ TEST(OptionTable, FileRangesLieWithinTheBounds) {
       EXPECT_TRUE(member >= info.file.lowest && member <= info.file.highest) << info.name;
     }
   });
-  EXPECT_EQ(ranges, 10U);
+  EXPECT_EQ(ranges, 11U);
 }
 
 template <class E>
@@ -155,23 +156,24 @@ TEST(OptionTable, WordsAreComplete) {
 
 /// Powers of two, so that each subset of the terms has its own sum.
 TEST(EnergyTable, TheErrorIsWhatTheBalanceLacks) {
-  const Energies e = {1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0, 256.0};
-  const auto& [external, elastic, kinetic, fracture, zero_energy, viscous, damping, artificial, kinetic_start] = e;
-  EXPECT_EQ(energy_terms.size(), 9U);
-  EXPECT_EQ(e.error(),
-            external - (elastic + kinetic - kinetic_start + fracture + zero_energy + viscous + damping + artificial));
+  const Energies e = {1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0, 256.0, 512.0, 1024.0};
+  const auto& [external, elastic, kinetic, fracture, zero_energy, viscous, damping, artificial, contact, friction,
+               kinetic_start] = e;
+  EXPECT_EQ(energy_terms.size(), 11U);
+  EXPECT_EQ(e.error(), external - (elastic + kinetic - kinetic_start + fracture + zero_energy + viscous + damping +
+                                   artificial + contact + friction));
 }
 
 TEST(EnergyTable, ReportsTheTermsAndTheError) {
-  const Energies e = {1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0, 256.0};
+  const Energies e = {1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0, 256.0, 512.0, 1024.0};
   std::string names;
   std::vector<double> values;
   for_each_energy(e, [&](std::string_view name, double x) {
     names += std::string(name) + ' ';
     values.push_back(x);
   });
-  EXPECT_EQ(names, "external elastic kinetic fracture zero_energy viscous damping artificial error ");
-  EXPECT_EQ(values, (std::vector<double>{1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0, e.error()}));
+  EXPECT_EQ(names, "external elastic kinetic fracture zero_energy viscous damping artificial contact friction error ");
+  EXPECT_EQ(values, (std::vector<double>{1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0, 256.0, 512.0, e.error()}));
 }
 
 }  // namespace

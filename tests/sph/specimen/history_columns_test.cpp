@@ -30,6 +30,8 @@ TEST(HistoryColumns, NamesAndOrder) {
                                              "energy_viscous",
                                              "energy_damping",
                                              "energy_artificial",
+                                             "energy_contact",
+                                             "energy_friction",
                                              "energy_error",
                                              "damaged_particles",
                                              "largest_damage",

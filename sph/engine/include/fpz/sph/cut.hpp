@@ -17,6 +17,9 @@ struct Cut {
   /// Whether the body goes on beyond that corner. Else it is a mouth, on the surface or outside, and bonds that cross
   /// the cut are gone up to there: in part they would bridge the mouth.
   std::array<bool, static_cast<std::size_t>(Dim)> is_tip = {};
+  double width = 0.0;     ///< m, of material that is missing: the faces lie half of it to either side
+  double gap = 0.0;       ///< m: the faces meet when they have come nearer by this much
+  double friction = 0.0;  ///< coefficient of faces that have met
 };
 
 /// Whether the straight line from p to q crosses the cut. A line through an end of the cut (to 1e-9 of its length) does

@@ -8,7 +8,8 @@
 namespace fpz::sph {
 
 /// Joule (per metre of thickness in 2-D). The balance is external = elastic + kinetic + fracture + zero_energy +
-/// viscous + damping + artificial, all counted from the start; kinetic is the difference from the start.
+/// viscous + damping + artificial + contact + friction, all counted from the start; kinetic is the difference from the
+/// start.
 struct Energies {
   double external = 0.0;     ///< work of boundaries, loads and gravity
   double elastic = 0.0;      ///< stored in bulk and cohesive zones
@@ -18,6 +19,8 @@ struct Energies {
   double viscous = 0.0;      ///< dissipated by artificial viscosity, and by the zero-energy control where cracks begin
   double damping = 0.0;      ///< dissipated by local damping
   double artificial = 0.0;   ///< taken by the artificial stress (may be negative)
+  double contact = 0.0;      ///< stored where faces press on each other
+  double friction = 0.0;     ///< dissipated where faces slide and where they hit each other
   double kinetic_start = 0.0;
 
   /// What the balance lacks: zero for exact integration.
@@ -36,7 +39,7 @@ struct EnergyTerm {
 
 /// The one list of the terms, in the order in which they are added and reported.
 // clang-format off
-inline constexpr std::array<EnergyTerm, 9> energy_terms = {{
+inline constexpr std::array<EnergyTerm, 11> energy_terms = {{
     {"external",      &Energies::external,      EnergyRole::source,  "work of boundaries, loads and gravity"},
     {"elastic",       &Energies::elastic,       EnergyRole::sink,    "stored in the bulk and in cohesive zones"},
     {"kinetic",       &Energies::kinetic,       EnergyRole::sink,    "kinetic, of the leap-frog"},
@@ -48,6 +51,9 @@ inline constexpr std::array<EnergyTerm, 9> energy_terms = {{
      "(it can come back)"},
     {"damping",       &Energies::damping,       EnergyRole::sink,    "dissipated by local damping"},
     {"artificial",    &Energies::artificial,    EnergyRole::sink,    "taken by the artificial stress"},
+    {"contact",       &Energies::contact,       EnergyRole::sink,    "stored where faces press on each other"},
+    {"friction",      &Energies::friction,      EnergyRole::sink,
+     "dissipated where faces slide and where they hit each other"},
 }};
 // clang-format on
 

@@ -95,6 +95,11 @@ inline constexpr auto option_table = std::tuple{
                          "not see; 0: off",
                  .valid = detail::not_negative, .file = {0.0, 100.0}},
                 &Options<Dim>::zero_energy_control},
+    OptionEntry{{.name = "contact_stiffness",
+                 .text = "reference: stiffness of faces that meet, in units of (lambda + 2 mu)/spacing; 0: they pass "
+                         "through each other",
+                 .valid = detail::not_negative, .file = {0.0, 1000.0}},
+                &Options<Dim>::contact_stiffness},
     OptionEntry{{.name = "damping",
                  .text = "local damping: part of the resultant force that opposes the velocity",
                  .valid = detail::part, .file = {0.0, 0.99}},

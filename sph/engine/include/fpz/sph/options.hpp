@@ -59,6 +59,9 @@ struct Options {
   /// mean of the gradients at the two does not explain. The gradient does not see displacements that alternate from
   /// particle to particle. 0: off.
   double zero_energy_control = 0.2;
+  /// reference: stiffness of closed faces, in units of (lambda + 2 mu)/spacing (mu/spacing in shear). 0: they pass
+  /// through each other.
+  double contact_stiffness = 10.0;
   double damping = 0.0;     ///< local damping: this part of the resultant force opposes the velocity
   double mass_scale = 1.0;  ///< inertia is multiplied by this (gravity is not)
   /// reference: the bonds of a crack whose integrity 1 - D is below this are cut where the displacements of their two

@@ -97,6 +97,9 @@ class Simulation {
   /// Largest relative displacement of uncracked neighbours that gradients do not see, m: rows that alternate. NaN
   /// without zero-energy control.
   [[nodiscard]] double alternation() const;
+  /// Largest overlap of faces that have met (notches, released cracks), m. NaN where nothing keeps faces apart
+  /// (`updated`, or contact_stiffness 0).
+  [[nodiscard]] double overlap() const;
   [[nodiscard]] long long released_bonds() const;
   [[nodiscard]] long long neighbour_builds() const;
   /// Real neighbours per particle, on average.

@@ -1,4 +1,4 @@
-// Faces of notches that have met: nothing keeps them apart.
+// Faces of notches that have met, where nothing keeps them apart, or not enough.
 #pragma once
 
 #include <string>
@@ -17,5 +17,8 @@ namespace fpz::specimen {
 /// What a person must know when faces overlap by more than a thousandth of the spacing: rock under a compression of
 /// that would be near its strength. Empty otherwise. `overlap`: of each notch.
 [[nodiscard]] std::string warning_of_closure(const std::vector<double>& overlap, double spacing);
+
+/// The same of faces in contact (m, the largest overlap): above a hundredth of the spacing their contact is too soft.
+[[nodiscard]] std::string warning_of_overlap(double overlap, double spacing);
 
 }  // namespace fpz::specimen

@@ -1,6 +1,7 @@
 // The body of a specimen: a shape minus holes and notches, in the plane.
 #pragma once
 
+#include <optional>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -40,8 +41,9 @@ using Shape = std::variant<Rectangle, Disc, HalfDisc, Ring, Polygon>;
 struct Notch {
   Point mouth = Point::Zero(), tip = Point::Zero();
   double width = 0.0;
-  double asked_width = 0.0;  ///< narrower than a spacing where `width` is 0 in its place
-  bool internal = false;     ///< the mouth is in the body: both ends are tips
+  double asked_width = 0.0;                       ///< narrower than a spacing where `width` is 0 in its place
+  bool internal = false;                          ///< the mouth is in the body: both ends are tips
+  std::optional<double> friction_angle_deg = {};  ///< of its faces; none: that of the material
 };
 
 struct Body {

@@ -1,0 +1,233 @@
+#include "contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fpz::sph::detail {
+
+namespace {
+
+constexpr int most_sweeps = 100;
+constexpr double settled = 1e-7;  // change of the forces in a sweep, of the largest: what is left is found a step later
+
+/// Calls f(slot, weight) for the particles of both sides, the weight negative on side 0.
+template <int Dim, class F>
+void for_each_particle(const ContactPoint<Dim>& point, F&& f) {
+  for (std::size_t s = 0; s < 2; ++s) {
+    const FaceSide& side = point.side[s];
+    for (std::size_t k = 0; k < side.particle.size(); ++k)
+      f(side.particle[k], s == 0 ? -side.weight[k] : side.weight[k]);
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+Contact<Dim>::Contact(RunData<Dim>& run, const Boundaries<Dim>& boundaries) : run_(run), points_(points_of_cuts(run)) {
+  find_prescribed(boundaries);
+  find_members();
+}
+
+/// What the boundaries take from velocities of one.
+template <int Dim>
+void Contact<Dim>::find_prescribed(const Boundaries<Dim>& boundaries) {
+  Particles<Dim>& p = run_.particles;
+  prescribed_.assign(p.padded(), 0);
+  const Fields<Dim> before = p.velocity;
+  for (Field& v : p.velocity) std::fill(v.begin(), v.end(), 1.0);
+  for (const auto& boundary : boundaries) boundary->hold();
+  for (std::size_t c = 0; c < run_.dimensions; ++c) {
+    for (std::size_t i = 0; i < p.count; ++i) {
+      if (p.velocity[c][i] == 0.0) prescribed_[i] = static_cast<unsigned char>(prescribed_[i] | (1U << c));
+    }
+  }
+  p.velocity = before;
+}
+
+/// The particles of all faces, each once.
+template <int Dim>
+void Contact<Dim>::find_members() {
+  std::vector<std::size_t> slots;
+  for (const ContactPoint<Dim>& point : points_) {
+    for_each_particle(point, [&](std::size_t i, double) { slots.push_back(i); });
+  }
+  std::sort(slots.begin(), slots.end());
+  slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
+  members_.clear();
+  for (const std::size_t i : slots) {
+    Member& m = members_.emplace_back(Member{i, Vector::Zero(), Vector::Zero()});
+    for (int c = 0; c < Dim; ++c) {
+      if ((prescribed_[i] >> c & 1U) == 0) m.inverse_mass[c] = run_.particles.inverse_mass[i];
+    }
+  }
+  places_.assign(points_.size(), {});
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    for_each_particle(points_[k], [&](std::size_t i, double weight) {
+      const auto at = std::lower_bound(slots.begin(), slots.end(), i) - slots.begin();
+      places_[k].shares.push_back({static_cast<std::size_t>(at), weight});
+    });
+  }
+}
+
+template <int Dim>
+void Contact<Dim>::look(const ContactPoint<Dim>& point, Place& place) const {
+  const Particles<Dim>& p = run_.particles;
+  Vector distance = point.at_start, turn = Vector::Zero();
+  for (const Share& s : place.shares) {
+    const std::size_t i = members_[s.member].slot;
+    distance += s.weight * Vector(p.position[0][i] - p.start[0][i], p.position[1][i] - p.start[1][i]);
+    turn += std::abs(s.weight) * Vector(p.rotation[0][i], p.rotation[1][i]);
+  }
+  turn.normalize();
+  const Vector& n = point.normal;
+  place.normal = Vector(turn[0] * n[0] - turn[1] * n[1], turn[1] * n[0] + turn[0] * n[1]);
+  place.tangent = Vector(-place.normal[1], place.normal[0]);
+  place.gap = place.normal.dot(distance) + point.room;
+  place.shift = place.tangent.dot(distance);
+  place.motion = distance - point.distance;
+}
+
+template <int Dim>
+bool Contact<Dim>::prepare() {
+  bool touching = false;
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    ContactPoint<Dim>& point = points_[k];
+    look(point, places_[k]);
+    point.distance += places_[k].motion;
+    point.slip = point.law.slip_at(places_[k].gap, places_[k].shift, point.slip);
+    touching = touching || point.pressure > 0.0;
+  }
+  return touching;
+}
+
+template <int Dim>
+void Contact<Dim>::push() {
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    const Vector force = points_[k].pressure * places_[k].normal + points_[k].shear * places_[k].tangent;
+    for_each_particle(points_[k], [&](std::size_t i, double weight) {
+      for (std::size_t c = 0; c < run_.dimensions; ++c) run_.outer_force[c][i] += weight * force[static_cast<int>(c)];
+    });
+  }
+}
+
+/// Velocities at n + 1/2 as they are without what is still to be found. Prescribed ones go on as before the kick.
+template <int Dim>
+void Contact<Dim>::predict(double step) {
+  const Particles<Dim>& p = run_.particles;
+  for (Member& m : members_) {
+    for (int c = 0; c < Dim; ++c) {
+      const auto k = static_cast<std::size_t>(c);
+      const double taken_back = m.inverse_mass[c] == 0.0 ? step * p.acceleration[k][m.slot] : 0.0;
+      m.velocity[c] = p.velocity[k][m.slot] - taken_back;
+    }
+  }
+}
+
+template <int Dim>
+void Contact<Dim>::find_gives(Place& place, double step) const {
+  place.normal_give = place.shear_give = 0.0;
+  for (const Share& s : place.shares) {
+    const Vector give = s.weight * s.weight * step * run_.dt * members_[s.member].inverse_mass;
+    place.normal_give += place.normal.cwiseAbs2().dot(give);
+    place.shear_give += place.tangent.cwiseAbs2().dot(give);
+  }
+}
+
+template <int Dim>
+double Contact<Dim>::correct(ContactPoint<Dim>& point, const Place& place, double step) {
+  Vector speed = Vector::Zero();
+  for (const Share& s : place.shares) speed += s.weight * members_[s.member].velocity;
+  // Without the forces of this point.
+  const double gap = place.gap + run_.dt * place.normal.dot(speed) - place.normal_give * point.pressure;
+  const double shift = place.shift + run_.dt * place.tangent.dot(speed) - place.shear_give * point.shear;
+  const double pressure = point.law.implicit_pressure(gap, place.normal_give);
+  if (pressure == 0.0 && point.pressure == 0.0) return 0.0;
+  const double shear = point.law.implicit_shear(shift - point.slip, place.shear_give, pressure);
+  const double more = pressure - point.pressure, more_shear = shear - point.shear;
+  const Vector impulse = step * (more * place.normal + more_shear * place.tangent);
+  for (const Share& s : place.shares) {
+    Member& m = members_[s.member];
+    m.velocity += s.weight * m.inverse_mass.cwiseProduct(impulse);
+  }
+  point.pressure = pressure;
+  point.shear = shear;
+  return std::abs(more) + std::abs(more_shear);
+}
+
+/// What was found goes to the particles, less the forces of the step before, which they have. The work of a force is
+/// that of the leap-frog: half with the velocity before it, half with the one after it.
+template <int Dim>
+void Contact<Dim>::apply(ContactPoint<Dim>& point, const Place& place, double step) {
+  Particles<Dim>& p = run_.particles;
+  const Vector force = point.pressure * place.normal + point.shear * place.tangent;
+  taken_ -= 0.5 * (point.force + force).dot(place.motion);
+  point.force = force;
+  const Vector more = force - (place.pressure * place.normal + place.shear * place.tangent);
+  if (more.isZero(0.0)) return;
+  for_each_particle(point, [&](std::size_t i, double weight) {
+    for (std::size_t c = 0; c < run_.dimensions; ++c) {
+      const double acceleration = weight * p.inverse_mass[i] * more[static_cast<int>(c)];
+      p.acceleration[c][i] += acceleration;
+      p.velocity[c][i] += step * acceleration;
+    }
+  });
+}
+
+template <int Dim>
+void Contact<Dim>::act(double step) {
+  if (points_.empty()) return;
+  predict(step);
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    find_gives(places_[k], step);
+    places_[k].pressure = points_[k].pressure;
+    places_[k].shear = points_[k].shear;
+  }
+  for (int sweep = 0; sweep < most_sweeps; ++sweep) {
+    double change = 0.0, largest = 0.0;
+    for (std::size_t k = 0; k < points_.size(); ++k) {
+      change = std::max(change, correct(points_[k], places_[k], step));
+      largest = std::max(largest, points_[k].pressure);
+    }
+    if (!(change > settled * largest)) break;
+  }
+  for (std::size_t k = 0; k < points_.size(); ++k) apply(points_[k], places_[k], step);
+}
+
+template <int Dim>
+double Contact<Dim>::stored() const {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    const ContactPoint<Dim>& point = points_[k];
+    Place place = places_[k];
+    look(point, place);
+    sum += point.law.stored(place.gap, place.shift, point.law.slip_at(place.gap, place.shift, point.slip));
+  }
+  return sum;
+}
+
+template <int Dim>
+double Contact<Dim>::overlap() const {
+  double most = 0.0;
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    Place place = places_[k];
+    look(points_[k], place);
+    most = std::max(most, -place.gap);
+  }
+  return most;
+}
+
+template <int Dim>
+void Contact<Dim>::save(Writer& archive) const {
+  archive(taken_);
+  for (const ContactPoint<Dim>& point : points_) transfer_state(archive, point);
+}
+
+template <int Dim>
+void Contact<Dim>::load(Reader& archive) {
+  archive(taken_);
+  for (ContactPoint<Dim>& point : points_) transfer_state(archive, point);
+}
+
+template class Contact<2>;
+
+}  // namespace fpz::sph::detail

@@ -1,0 +1,80 @@
+// Contact of faces that have met: they press on each other, never pull, and slide with friction.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "boundary.hpp"
+#include "contact_point.hpp"
+
+namespace fpz::sph::detail {
+
+/// The forces at n are those that the law gives at the gaps of n + 1 which they leave: implicit in the contact alone,
+/// which may be as stiff as one likes at any time step, and changes nothing while faces are open. They are found point
+/// by point, again and again (projected Gauss-Seidel), from those of the step before. One thread: bits do not depend on
+/// the team.
+template <int Dim>
+class Contact {
+ public:
+  Contact(RunData<Dim>& run, const Boundaries<Dim>& boundaries);
+
+  /// Gaps at n. Whether faces have pressed on each other in the step before.
+  [[nodiscard]] bool prepare();
+  /// Adds the forces of the step before to RunData::outer_force.
+  void push();
+  /// The rest of the forces at n, on velocities that the kick over `step` (s) has made; books their work.
+  void act(double step);
+
+  /// J, held in closed faces at n.
+  [[nodiscard]] double stored() const;
+  /// J, taken so far: what is stored, and what friction and impacts have dissipated.
+  [[nodiscard]] double taken() const { return taken_; }
+  /// Largest overlap of two faces at n, m.
+  [[nodiscard]] double overlap() const;
+
+  void save(Writer& archive) const;
+  void load(Reader& archive);
+
+ private:
+  using Vector = Vec<double, Dim>;
+
+  /// A particle of a face: its velocity with the forces found so far, and what a newton second adds to it.
+  struct Member {
+    std::size_t slot;
+    Vector velocity;
+    Vector inverse_mass;  ///< 1/kg, zero of components that are prescribed
+  };
+  /// Part of a point's force that a member takes: positive on side 1.
+  struct Share {
+    std::size_t member;
+    double weight;
+  };
+  /// A point as the particles lie at n.
+  struct Place {
+    std::vector<Share> shares;
+    Vector normal, tangent;
+    double gap = 0.0, shift = 0.0;               ///< m
+    double normal_give = 0.0, shear_give = 0.0;  ///< m/N: what a newton adds to gap and shift at n + 1
+    double pressure = 0.0, shear = 0.0;          ///< N, of the step before
+    Vector motion = Vector::Zero();              ///< m, of the distance since the kick before
+  };
+
+  void find_prescribed(const Boundaries<Dim>& boundaries);
+  void find_members();
+  /// Gap and shift of a point whose shares are known.
+  void look(const ContactPoint<Dim>& point, Place& place) const;
+  void predict(double step);
+  void find_gives(Place& place, double step) const;
+  /// Pressure and shear of one point with what the others have done so far; the size of the change, N.
+  [[nodiscard]] double correct(ContactPoint<Dim>& point, const Place& place, double step);
+  void apply(ContactPoint<Dim>& point, const Place& place, double step);
+
+  RunData<Dim>& run_;
+  Mask prescribed_;  ///< per particle, a bit for each component
+  std::vector<ContactPoint<Dim>> points_;
+  std::vector<Place> places_;
+  std::vector<Member> members_;
+  double taken_ = 0.0;  ///< J
+};
+
+}  // namespace fpz::sph::detail

@@ -1,0 +1,209 @@
+// Faces that meet: nothing in tension, as if there were no cut in compression, Coulomb's friction in shear.
+#include <cmath>
+
+#include "fpz/sph/simulation.hpp"
+#include "sph/engine/setups.hpp"
+
+namespace fpz::sph::test {
+namespace {
+
+constexpr double spacing = 1e-3;
+
+/// A block of columns x rows with a cut (or a slot) between two rows, its lowest and highest two rows in groups.
+RunSetup<2> cut_block(int columns, int rows, double friction, double slot = 0.0) {
+  RunSetup<2> s = block(columns, rows);
+  const double height = rows * spacing, middle = 0.5 * height;
+  if (slot > 0.0) {
+    RunSetup<2> without = s;
+    without.arrangement = {};
+    without.arrangement.spacing = spacing;
+    for (std::size_t i = 0; i < s.arrangement.size(); ++i) {
+      if (std::abs(s.arrangement.position[i][1] - middle) > 0.5 * slot) {
+        without.arrangement.add(s.arrangement.position[i], s.arrangement.volume[i]);
+      }
+    }
+    s = without;
+  }
+  Cut<2> cut{{vec(0.0, middle), vec(columns * spacing, middle)}, {}};
+  cut.width = cut.gap = slot;
+  cut.friction = friction;
+  s.arrangement.cuts = {cut};
+  return s;
+}
+
+void hold_ends(RunSetup<2>& s, double height, const Group<2>& top) {
+  add_group(s, {"bottom", {Motion{}, Motion{}}, true}, [](const Vector& x) { return x[1] < 2.0 * spacing; });
+  add_group(s, top, [=](const Vector& x) { return x[1] > height - 2.0 * spacing; });
+}
+
+/// Mean force by which the top is held during the last `part` of the time.
+Vector mean_force(Simulation<2>& run, double time, double part = 0.2) {
+  Vector sum = vec(0.0, 0.0);
+  double count = 0.0;
+  while (run.time() < time) {
+    const Outcome o = run.step();
+    EXPECT_TRUE(o.ok()) << o.message();
+    if (!o.ok()) break;
+    if (run.time() < (1.0 - part) * time) continue;
+    sum += run.reaction(1);
+    count += 1.0;
+  }
+  return sum / count;
+}
+
+double force_between_platens(RunSetup<2> s, double speed) {
+  hold_ends(s, 40.0 * spacing, {"top", {std::nullopt, Motion{speed, 2e-4}}, true});
+  Simulation<2> run(s);
+  return mean_force(run, 1e-3)[1];
+}
+
+TEST(Contact, AClosedCutIsAsStiffAsNone) {
+  RunSetup<2> cut = cut_block(16, 40, 0.7), intact = cut, pass = cut;
+  intact.arrangement.cuts.clear();
+  pass.options.contact_stiffness = 0.0;
+  const double whole = force_between_platens(intact, -0.02);
+  EXPECT_NEAR(force_between_platens(cut, -0.02), whole, 0.01 * std::abs(whole));
+  EXPECT_NEAR(force_between_platens(pass, -0.02), 0.0, 0.01 * std::abs(whole));
+}
+
+TEST(Contact, NothingHoldsFacesTogether) {
+  RunSetup<2> with = cut_block(16, 20, 0.7), without = with;
+  without.options.contact_stiffness = 0.0;
+  for (RunSetup<2>* s : {&with, &without}) {
+    hold_ends(*s, 20.0 * spacing, {"top", {Motion{0.5, 1e-5}, Motion{0.5, 1e-5}}, true});
+  }
+  Simulation<2> a(with), b(without);
+  EXPECT_EQ(a.time_step(), b.time_step());
+  advance(a, 500);
+  advance(b, 500);
+  // Faces that have not parted yet touch within the rounding of positions.
+  for (std::size_t i = 0; i < a.particles().count; ++i) {
+    ASSERT_NEAR(a.particles().position[1][i], b.particles().position[1][i], 1e-14) << i;
+  }
+  EXPECT_EQ(a.energies().contact, 0.0);
+  EXPECT_LT(a.energies().friction, 1e-12 * a.energies().external);
+}
+
+TEST(Contact, ASlotBearsWhenItsWidthIsClosed) {
+  constexpr double width = 2.0 * spacing, speed = 10.0, ramp = 1e-5;
+  RunSetup<2> s = cut_block(16, 42, 0.7, width);
+  hold_ends(s, 42.0 * spacing, {"top", {Motion{}, Motion{-speed, ramp}}, true});
+  Simulation<2> run(s);
+  while (run.energies().contact == 0.0 && run.time() < 1e-3) ASSERT_TRUE(run.step().ok());
+  // The face follows the platen by the time of a wave, and hurries ahead of it by vibration.
+  const double travelled = speed * (run.time() - 0.5 * ramp);
+  EXPECT_NEAR(travelled, width, 0.05 * width);
+}
+
+/// Steady sliding of a flat block: shear over pressure is the friction, and what it dissipates is shear times slip.
+TEST(Contact, SlidesAtItsFriction) {
+  for (const double friction : {0.3, 0.7}) {
+    RunSetup<2> s = cut_block(20, 12, friction);
+    constexpr double speed = 0.06, ramp = 2e-4, time = 1.2e-3;
+    hold_ends(s, 12.0 * spacing, {"top", {Motion{speed, ramp}, Motion{-0.05 * speed, ramp}}, true});
+    Simulation<2> run(s);
+    advance(run, static_cast<long long>(0.6 * time / run.time_step()));
+    const double before = run.energies().friction, sheared = run.energies().elastic;
+    double work = 0.0;
+    while (run.time() < time) {
+      ASSERT_TRUE(run.step().ok());
+      work += run.reaction(1).dot(vec(speed, -0.05 * speed)) * run.time_step();
+    }
+    const Energies e = run.energies();
+    EXPECT_NEAR(e.friction - before, work - (e.elastic - sheared), 0.01 * work);
+    EXPECT_LT(std::abs(e.error()), 1e-9 * e.external);
+    const Vector force = mean_force(run, 1.5 * time);
+    EXPECT_NEAR(force[0], -friction * force[1], 0.005 * force[0]);
+  }
+}
+
+/// A block that slides down an inclined joint: g (sin - friction cos).
+TEST(Contact, AccelerationOnAnInclinedPlane) {
+  constexpr double pi = 3.14159265358979323846;
+  constexpr double gravity = 2e4, friction = 0.2;
+  for (const double degrees : {25.0, 40.0, 60.0}) {
+    const double slope = degrees * pi / 180.0;
+    RunSetup<2> s = cut_block(20, 16, friction);
+    s.options.gravity = gravity * vec(std::sin(slope), -std::cos(slope));
+    add_group(s, {"bottom", {Motion{}, Motion{}}, true}, [](const Vector& x) { return x[1] < 2.0 * spacing; });
+    Simulation<2> run(s);
+    double slid = 0.0;
+    while (run.time() < 4e-4) {
+      ASSERT_TRUE(run.step().ok());
+      double momentum = 0.0, mass = 0.0;
+      const Particles<2>& p = run.particles();
+      for (std::size_t i = 0; i < p.count; ++i) {
+        if (p.start[1][i] < 8.0 * spacing) continue;
+        momentum += p.mass[i] * p.velocity[0][i];
+        mass += p.mass[i];
+      }
+      slid += run.time_step() * momentum / mass;
+    }
+    const double acceleration = gravity * (std::sin(slope) - friction * std::cos(slope));
+    const double expected = 0.5 * acceleration * run.time() * run.time();
+    EXPECT_NEAR(slid, expected, 0.02 * expected) << degrees;
+  }
+}
+
+/// Two free pieces that collide: their momentum stays, their kinetic energy is accounted for.
+TEST(Contact, PiecesThatCollide) {
+  RunSetup<2> s = cut_block(16, 42, 0.5, 2.0 * spacing);
+  set_velocity(s, [](const Vector& x) { return x[1] > 21.0 * spacing ? vec(0.0, -2.0) : vec(0.0, 2.0); });
+  Simulation<2> run(s);
+  const auto spin = [](const Simulation<2>& r) {
+    const Particles<2>& p = r.particles();
+    double sum = 0.0;
+    for (std::size_t i = 0; i < p.count; ++i) {
+      sum += p.mass[i] * (p.position[0][i] * p.velocity[1][i] - p.position[1][i] * p.velocity[0][i]);
+    }
+    return sum;
+  };
+  const Vector before = momentum(run);
+  const double spin_before = spin(run);
+  double overlap = 0.0;
+  while (run.time() < 6e-4) {
+    ASSERT_TRUE(run.step().ok());
+    overlap = std::max(overlap, run.overlap());
+  }
+  const Energies e = run.energies();
+  const double scale = run.particles().mass[0] * static_cast<double>(run.particles().count) * 2.0;
+  EXPECT_LT((momentum(run) - before).norm(), 1e-12 * scale);
+  EXPECT_LT(std::abs(spin(run) - spin_before), 1e-9 * scale * 20.0 * spacing);
+  EXPECT_GT(e.friction, 0.0);
+  EXPECT_LT(std::abs(e.error()), 1e-4 * e.kinetic_start);
+  EXPECT_LT(overlap, 0.01 * spacing);
+  double upper = 0.0;
+  for (std::size_t i = 0; i < run.particles().count; ++i) {
+    if (run.particles().start[1][i] > 21.0 * spacing) upper = std::max(upper, run.particles().velocity[1][i]);
+  }
+  EXPECT_GT(upper, 0.0);  // it has turned round
+}
+
+RunSetup<2> sliding(int threads) {
+  RunSetup<2> s = cut_block(20, 12, 0.5);
+  hold_ends(s, 12.0 * spacing, {"top", {Motion{0.5, 1e-5}, Motion{-0.1, 1e-5}}, true});
+  s.options.threads = threads;
+  return s;
+}
+
+TEST(Contact, ThreadsAndSnapshotsDoNotChangeABit) {
+  Simulation<2> one(sliding(1)), three(sliding(3)), continued(sliding(1));
+  advance(one, 400);
+  EXPECT_GT(one.energies().friction, 0.0);
+  continued.restore(one.snapshot());
+  advance(one, 400);
+  advance(continued, 400);
+  advance(three, 800);
+  EXPECT_EQ(one.snapshot(), continued.snapshot());
+  EXPECT_EQ(one.snapshot(), three.snapshot());
+}
+
+TEST(Contact, IsOfTheReferenceConfigurationOnly) {
+  RunSetup<2> s = cut_block(16, 20, 0.5);
+  EXPECT_NEAR(Simulation<2>(s).overlap(), 0.0, 1e-15);
+  s.options.configuration = Configuration::updated;
+  EXPECT_TRUE(std::isnan(Simulation<2>(s).overlap()));
+}
+
+}  // namespace
+}  // namespace fpz::sph::test
