@@ -7,17 +7,15 @@ namespace fpz::sph::detail {
 
 template <int Dim>
 BondedPlaten<Dim>::BondedPlaten(RunData<Dim>& run, std::size_t group)
-    : Boundary<Dim>(run), drive_(run.setup.groups[group].drive) {
+    : Boundary<Dim>(run), slots_(slots_of_group(run, group)) {
   Particles<Dim>& p = run.particles;
-  for (std::size_t i = 0; i < p.count; ++i) {
-    if (run.setup.arrangement.group[p.id[i]] != static_cast<int>(group)) continue;
-    slots_.push_back(i);
-    mass_ += p.mass[i];
-  }
+  for (const std::size_t i : slots_) mass_ += p.mass[i];
   for (std::size_t c = 0; c < run.dimensions; ++c) {
-    if (!drive_[c]) continue;
-    const bool moves = drive_[c]->kind == Drive::Kind::velocity && !drive_[c]->yields();
-    const double velocity = moves ? drive_[c]->table.at(0.0) : 0.0;
+    const std::optional<Drive>& drive = run.setup.groups[group].drive[c];
+    if (!drive) continue;
+    actuator_[c] = Actuator{*drive};
+    const bool moves = drive->kind == Drive::Kind::velocity && !drive->yields();
+    const double velocity = moves ? drive->table.at(0.0) : 0.0;
     velocity_[static_cast<int>(c)] = velocity;
     for (const std::size_t i : slots_) {
       run.damping[c][i] = 0.0;
@@ -27,34 +25,11 @@ BondedPlaten<Dim>::BondedPlaten(RunData<Dim>& run, std::size_t group)
 }
 
 template <int Dim>
-double BondedPlaten<Dim>::drive_velocity(std::size_t c) const {
-  const Drive& d = *drive_[c];
-  const double now = this->run_.now(), dt = this->run_.dt;
-  switch (d.kind) {
-    case Drive::Kind::velocity:
-      return d.table.at(now + 0.5 * dt);
-    case Drive::Kind::displacement:
-      return (d.table.at(now + dt) - d.table.at(now)) / dt;
-    case Drive::Kind::steered:
-      return steered_[static_cast<int>(c)];
-    case Drive::Kind::force:
-      break;
-  }
-  return 0.0;
-}
-
-template <int Dim>
-double BondedPlaten<Dim>::outer_force(std::size_t c) const {
-  const Drive& d = *drive_[c];
-  if (d.kind == Drive::Kind::force) return d.table.at(this->run_.now());
-  return d.machine_stiffness * stretch_[static_cast<int>(c)];
-}
-
-template <int Dim>
 double BondedPlaten<Dim>::next_velocity(std::size_t c, double step) const {
-  if (!drive_[c]->yields()) return drive_velocity_[static_cast<int>(c)];
+  const Actuator& actuator = *actuator_[c];
+  if (!actuator.yields()) return actuator.drive_velocity;
   const Particles<Dim>& p = this->run_.particles;
-  double momentum = step * outer_force(c);
+  double momentum = step * actuator.force(this->run_.now());
   for (const std::size_t i : slots_) momentum += p.mass[i] * p.velocity[c][i];
   return momentum / mass_;
 }
@@ -63,14 +38,13 @@ template <int Dim>
 void BondedPlaten<Dim>::act(double step) {
   RunData<Dim>& run = this->run_;
   Particles<Dim>& p = run.particles;
-  const Vector old_reaction = reaction_;
-  const Vector old_velocity = velocity_;
-  if (run.started) stretch_ += run.dt * (drive_velocity_ - velocity_);
+  const Vec<double, Dim> old_reaction = reaction_;
+  const Vec<double, Dim> old_velocity = velocity_;
   reaction_.setZero();
   for (std::size_t c = 0; c < run.dimensions; ++c) {
-    if (!drive_[c]) continue;
+    if (!actuator_[c]) continue;
     const auto k = static_cast<int>(c);
-    drive_velocity_[k] = drive_velocity(c);
+    actuator_[c]->advance(run.now(), run.dt, run.started ? run.dt : 0.0, velocity_[k]);
     velocity_[k] = next_velocity(c, step);
     for (const std::size_t i : slots_) {
       const double lacking = (velocity_[k] - p.velocity[c][i]) / step;
@@ -87,9 +61,9 @@ template <int Dim>
 void BondedPlaten<Dim>::hold() {
   Particles<Dim>& p = this->run_.particles;
   for (std::size_t c = 0; c < this->run_.dimensions; ++c) {
-    if (!drive_[c]) continue;
+    if (!actuator_[c]) continue;
     double mean = 0.0;
-    if (drive_[c]->yields()) {
+    if (actuator_[c]->yields()) {
       for (const std::size_t i : slots_) mean += p.mass[i] / mass_ * p.velocity[c][i];
     }
     for (const std::size_t i : slots_) p.velocity[c][i] = mean;
@@ -99,20 +73,25 @@ void BondedPlaten<Dim>::hold() {
 template <int Dim>
 double BondedPlaten<Dim>::stable_step() const {
   double limit = std::numeric_limits<double>::infinity();
-  for (const auto& d : drive_) {
-    if (d && d->machine_stiffness > 0.0) limit = std::min(limit, 2.0 * std::sqrt(mass_ / d->machine_stiffness));
+  for (const auto& a : actuator_) {
+    if (a && a->drive.machine_stiffness > 0.0) {
+      limit = std::min(limit, 2.0 * std::sqrt(mass_ / a->drive.machine_stiffness));
+    }
   }
   return limit;
 }
 
 template <int Dim>
 void BondedPlaten<Dim>::set_drive(std::size_t c, const Drive& drive) {
-  if (!drive_[c]) {
+  if (!actuator_[c]) {
     throw std::invalid_argument("a component that was free stays free: drive it from the start, with a force of 0");
   }
-  const auto k = static_cast<int>(c);
-  drive_[c] = drive;
-  stretch_[k] = drive.machine_stiffness > 0.0 ? reaction_[k] / drive.machine_stiffness : 0.0;
+  actuator_[c]->change(drive, reaction_[static_cast<int>(c)]);
+}
+
+template <int Dim>
+void BondedPlaten<Dim>::steer(std::size_t c, double velocity) {
+  if (actuator_[c]) actuator_[c]->steered = velocity;
 }
 
 template class BondedPlaten<2>;

@@ -1,6 +1,7 @@
 // Particles bonded to the body, with some velocity components driven: rollers, platens, grips (group.hpp).
 #pragma once
 
+#include "actuator.hpp"
 #include "boundary.hpp"
 
 namespace fpz::sph::detail {
@@ -20,42 +21,29 @@ class BondedPlaten final : public Boundary<Dim> {
   [[nodiscard]] Vec<double, Dim> reaction() const override { return reaction_; }
   [[nodiscard]] Vec<double, Dim> velocity() const override { return velocity_; }
   [[nodiscard]] double stable_step() const override;
-  /// The force goes on from what it is: a machine begins as strained as that takes.
   void set_drive(std::size_t component, const Drive& drive) override;
-  void steer(std::size_t component, double velocity) override { steered_[static_cast<int>(component)] = velocity; }
+  void steer(std::size_t component, double velocity) override;
   void save(Writer& archive) const override { transfer_state(archive, *this); }
   void load(Reader& archive) override { transfer_state(archive, *this); }
 
  private:
-  using Vector = Vec<double, Dim>;
-
   template <class Archive, class Self>
   static void transfer_state(Archive& archive, Self& self) {
     archive(self.reaction_);
     archive(self.velocity_);
-    archive(self.steered_);
-    archive(self.stretch_);
-    archive(self.drive_velocity_);
-    for (auto& drive : self.drive_) {
-      if (drive) archive(*drive);
+    for (auto& actuator : self.actuator_) {
+      if (actuator) archive(*actuator);
     }
   }
 
-  /// Of the drive, from n to n + 1, m/s.
-  [[nodiscard]] double drive_velocity(std::size_t component) const;
-  /// On a component that yields, at n, N.
-  [[nodiscard]] double outer_force(std::size_t component) const;
   /// Of its particles at n + 1/2, m/s, from what the body has made of them.
   [[nodiscard]] double next_velocity(std::size_t component, double step) const;
 
-  std::array<std::optional<Drive>, static_cast<std::size_t>(Dim)> drive_;
+  std::array<std::optional<Actuator>, static_cast<std::size_t>(Dim)> actuator_;
   std::vector<std::size_t> slots_;
-  double mass_ = 0.0;                       ///< kg
-  Vector reaction_ = Vector::Zero();        ///< at n, N
-  Vector velocity_ = Vector::Zero();        ///< at n + 1/2, m/s
-  Vector steered_ = Vector::Zero();         ///< m/s
-  Vector stretch_ = Vector::Zero();         ///< at n: displacement of the drive less that of the group, m
-  Vector drive_velocity_ = Vector::Zero();  ///< at n + 1/2, m/s
+  double mass_ = 0.0;                                     ///< kg
+  Vec<double, Dim> reaction_ = Vec<double, Dim>::Zero();  ///< at n, N
+  Vec<double, Dim> velocity_ = Vec<double, Dim>::Zero();  ///< at n + 1/2, m/s
 };
 
 }  // namespace fpz::sph::detail

@@ -48,6 +48,10 @@ class Boundary {
   RunData<Dim>& run_;
 };
 
+/// Slots of the particles of a group.
+template <int Dim>
+[[nodiscard]] std::vector<std::size_t> slots_of_group(const RunData<Dim>& run, std::size_t group);
+
 template <int Dim>
 using Boundaries = std::vector<std::unique_ptr<Boundary<Dim>>>;
 

@@ -97,6 +97,7 @@ void check_cuts(const Arrangement<Dim>& a, Messages& m) {
 
 template <int Dim>
 void check_drives(const Group<Dim>& g, Messages& m) {
+  m.require(!g.hinge || is_finite(*g.hinge), "hinge of group " + g.name + ": must be finite");
   for (const std::optional<Drive>& drive : g.drive) {
     if (!drive) continue;
     const std::string table = problem_of(drive->table);

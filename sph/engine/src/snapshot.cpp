@@ -54,6 +54,8 @@ std::uint64_t fingerprint(const RunSetup<Dim>& s) {
       w(d.has_value());
       if (d) w(*d);
     }
+    w(g.hinge.has_value());
+    if (g.hinge) w(*g.hinge);
   }
   for (const Load<Dim>& load : s.loads) w(load.force), w(load.factor);
   return fnv1a(w.bytes());

@@ -22,7 +22,8 @@ void require_sound(const RunSetup<Dim>& setup) {
     text += "static equilibrium needs the configuration reference and the momentum form adjoint\n";
   }
   for (const Group<Dim>& g : setup.groups) {
-    if (std::any_of(g.drive.begin(), g.drive.end(), [](const auto& d) { return d && d->yields(); })) {
+    const bool yields = std::any_of(g.drive.begin(), g.drive.end(), [](const auto& d) { return d && d->yields(); });
+    if (yields || g.hinge) {
       text += "static equilibrium knows no group that yields to forces: " + g.name + "\n";
     }
   }

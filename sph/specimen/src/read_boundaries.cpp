@@ -4,9 +4,20 @@
 namespace fpz::specimen::detail {
 namespace {
 
-constexpr std::array<std::string_view, 11> boundary_keys = {"name",         "at",    "direction",        "width",
-                                                            "layers",       "fit",   "elastic",          "velocity",
-                                                            "displacement", "force", "machine_stiffness"};
+constexpr std::array<std::string_view, 12> boundary_keys = {
+    "name",    "at",    "direction", "width",        "layers", "fit",
+    "elastic", "hinge", "velocity",  "displacement", "force",  "machine_stiffness"};
+
+/// true, or the point about which the boundary turns.
+void read_hinge(const InputReader& r, const Place& p, Boundary& b) {
+  if (p.value().is(JsonValue::Kind::boolean)) {
+    b.hinged = p.value().boolean;
+    if (b.hinged && !b.platen) r.problem(p, "particles of a file have no middle of their foot: give the point [x, y]");
+    return;
+  }
+  b.hinge = point(r, p);
+  b.hinged = b.hinge.has_value();
+}
 
 Boundary read_boundary(const InputReader& r, const Place& place, std::span<const std::string> gauges,
                        const Scene& scene) {
@@ -30,6 +41,7 @@ Boundary read_boundary(const InputReader& r, const Place& place, std::span<const
     with(place, "fit", [&](const Place& p) { platen.fit = choice<Platen::Fit>(r, p).value_or(platen.fit); });
     b.platen = platen;
   }
+  with(place, "hinge", [&](const Place& p) { read_hinge(r, p, b); });
   with(place, "elastic", [&](const Place& p) { b.elastic = boolean(r, p).value_or(true); });
   if (!read_actuations(r, place, {true, gauges}, b.drive)) {
     r.problem(place, "needs \"velocity\", \"displacement\" or \"force\": how it is driven");

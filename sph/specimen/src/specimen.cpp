@@ -72,6 +72,16 @@ int worthwhile_threads(std::size_t particles) {
 
 bool is_updated(const Specimen& s) { return s.setup.options.configuration == sph::Configuration::updated; }
 
+/// On the surface, in the middle of the columns.
+Point middle_of_foot(const Scene& scene, const Platen& platen) {
+  Point sum = Point::Zero();
+  double count = 0.0;
+  for (const std::optional<Point>& foot : platen_feet(scene.body.shape, platen, scene.spacing)) {
+    if (foot) sum += *foot, count += 1.0;
+  }
+  return sum / count;
+}
+
 /// The loads of the scene as forces on particles.
 void add_loads(const Scene& scene, Specimen& s) {
   if (scene.loads.empty()) return;
@@ -142,6 +152,7 @@ Specimen make_specimen(const Scene& scene) {
       if (b.drive[c]) group.drive[c] = b.drive[c]->starting(0.0, 0.0, 0.0, scene.thickness);
     }
     group.elastic = b.elastic;
+    if (b.hinged) group.hinge = b.hinge ? *b.hinge : middle_of_foot(scene, *b.platen);
     s.setup.groups.push_back(group);
   }
   s.setup.parameters = scene.parameters;

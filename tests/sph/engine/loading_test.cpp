@@ -213,6 +213,11 @@ TEST(Loading, SnapshotsHaveDrivesAndLoads) {
     Load<2> load{"push", {}, TimeTable{{0.0, 5e-5}, {0.0, 2e3}, false, 0.0}};
     for (const int g : s.arrangement.group) load.force.push_back(vec(0.0, g < 0 ? 1e-3 : 0.0));
     s.loads.push_back(load);
+    add_group(s, {"shoe", {std::nullopt, Motion{0.1, 1e-5}}, true, vec(15e-3, 13.5e-3)},
+              [](const Vector& x) { return std::abs(x[0] - 15e-3) < 2e-3 && x[1] > 12e-3; });
+    for (std::size_t i = 0; i < s.arrangement.size(); ++i) {
+      if (s.arrangement.group[i] >= 0) s.loads[0].force[i].setZero();
+    }
     const auto change = [](Simulation<2>& run) {
       run.set_drive(1, 0, {Drive::Kind::force, TimeTable{{0.0, 1e-5}, {1e4, 5e4}, true, run.time()}});
       run.set_factor(0, TimeTable{{0.0, 1e-5}, {3e3, -1e3}, true, run.time()});
@@ -235,6 +240,70 @@ TEST(Loading, SnapshotsHaveDrivesAndLoads) {
     other.loads[0].factor.value[1] = 1e3;
     EXPECT_THROW(Simulation<2>(other).restore(middle), std::runtime_error);
   }
+}
+
+/// A cantilever whose end is lifted by a platen: guided it has four times the bending stiffness of a hinged end, which
+/// carries no moment (a bonded end that is free along the beam as a whole is guided). Timoshenko's beam in plane
+/// strain.
+TEST(Loading, AHingedPlatenCarriesNoMoment) {
+  const double u = 2e-5, length = 54.0 * size, height = 8.0 * size;
+  for (const Configuration c : both) {
+    const auto lift = [&](bool hinged) {
+      RunSetup<2> s = block(60, 8, 0.0, size);
+      s.options.configuration = c;
+      s.options.artificial_stress = 0.0;
+      s.options.damping = 0.3;
+      add_group(s, {"left", {still, still}, true}, [](const Vector& x) { return x[0] < 3.0 * size; });
+      const Drive up(Drive::Kind::displacement, TimeTable::rise(0.0, u, 6e-4));
+      Group<2> right{"right", {Drive{Drive::Kind::force, TimeTable::constant(0.0)}, up}, true};
+      if (hinged) right.hinge = vec(57.0 * size, 4.0 * size);
+      add_group(s, right, [](const Vector& x) { return x[0] > 57.0 * size; });
+      Simulation<2> run(s);
+      run_until(run, 2e-3);
+      EXPECT_LT(std::abs(run.energies().error()), 2e-3 * run.energies().external);
+      EXPECT_NEAR(run.reaction(0)[1], -run.reaction(1)[1], 0.01 * run.reaction(1)[1]);
+      return run.reaction(1)[1] / u;  // N/m, per metre
+    };
+    const Parameters p = unbreakable();
+    const double bending = modulus(block(1, 1)) * height * height * height / 12.0;
+    const double shear = 5.0 / 6.0 * p.young_modulus / (2.0 * (1.0 + p.poisson_ratio)) * height;
+    const double cubed = length * length * length;
+    const double guided = 1.0 / (cubed / (12.0 * bending) + length / shear);
+    const double hinged = 1.0 / (cubed / (3.0 * bending) + length / shear);
+    // Their ratio: eight rows and the clamp of the other end make both softer by an eighth.
+    EXPECT_NEAR(lift(true) / lift(false), hinged / guided, 0.06 * hinged / guided) << static_cast<int>(c);
+  }
+}
+
+/// A hinged platen that nothing else holds spins and flies as the rigid body that it is.
+TEST(Loading, AHingedPlatenIsARigidBody) {
+  RunSetup<2> s = block(6, 4, 0.0, size);
+  Group<2> all{"all", {Drive{Drive::Kind::force, TimeTable::constant(5.0)}, still}, true};
+  all.hinge = vec(0.0, 2.0 * size);  // on its left side: the force pulls along the middle line
+  add_group(s, all, [](const Vector&) { return true; });
+  Simulation<2> run(s);
+  advance(run, 100);
+  double mass = 0.0;
+  for (std::size_t i = 0; i < run.particles().count; ++i) mass += run.particles().mass[i];
+  EXPECT_NEAR(run.velocity(0)[0], 5.0 / mass * (run.time() + 0.5 * run.time_step()), 1e-9);
+  EXPECT_NEAR(run.velocity(0)[1], 0.0, 1e-12);
+  // A force across it at a hinge at its end: the hinge of a uniform rod of length L accelerates by F/m (1 +
+  // 3/(1+(h/L)^2)).
+  RunSetup<2> rod = block(6, 4, 0.0, size);
+  Group<2> end{"all", {std::nullopt, Drive{Drive::Kind::force, TimeTable::constant(5.0)}}, true};
+  end.hinge = vec(0.0, 2.0 * size);
+  add_group(rod, end, [](const Vector&) { return true; });
+  Simulation<2> flying(rod);
+  advance(flying, 100);
+  double about = 0.0;  // moment of inertia about the middle
+  for (std::size_t i = 0; i < flying.particles().count; ++i) {
+    const Vector r = vec(flying.particles().start[0][i], flying.particles().start[1][i]) - vec(3.0 * size, 2.0 * size);
+    about += flying.particles().mass[i] * r.squaredNorm();
+  }
+  const double give = 1.0 / mass + 9.0 * size * size / about;
+  EXPECT_NEAR(flying.velocity(0)[1], 5.0 * give * (flying.time() + 0.5 * flying.time_step()),
+              1e-6 * 5.0 * give * flying.time());
+  EXPECT_LT(std::abs(flying.energies().error()), 1e-6 * flying.energies().external);
 }
 
 TEST(Loading, WrongDrivesAreRefused) {

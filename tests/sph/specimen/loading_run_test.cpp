@@ -186,6 +186,10 @@ TEST(LoadingRun, WhatIsWrongWithAStageIsNamed) {
   EXPECT_NE(stage(R"("boundaries": {"top": {"width": 1}})").find("unknown key \"width\""), std::string::npos);
   EXPECT_NE(stage(R"("loads": {"side": "hold"})").find("did you mean \"sides\"?"), std::string::npos);
   EXPECT_NE(stage(R"("loads": {"sides": 5e6})").find("would act at once"), std::string::npos);
+  EXPECT_NE(complaint(plate(R"("boundaries": [{"name": "a", "at": [0, 0.01], "direction": [0, 1], "width": 0.01,
+    "hinge": [0, "x"], "velocity": {"y": 0}}], "gauges": {}, "stop": {"time": 1})"))
+                .find("boundaries[0].hinge"),
+            std::string::npos);
   EXPECT_NE(stage(R"("damping": 2)").find("stages[1].damping"), std::string::npos);
   EXPECT_NE(stage(R"("boundaries": {"top": {"velocity": {"y": {"servo": "cmod", "rate": 1, "speed": 1}}}})")
                 .find("unknown choice \"cmod\""),
@@ -283,6 +287,38 @@ TEST(LoadingRun, ConfinedCompressionHoldsItsPressure) {
   const double nu = scene.parameters.poisson_ratio, modulus = scene.parameters.young_modulus / (1.0 - nu * nu);
   const double wanted = modulus * (h.last("stretch") - h.at(begin, "stretch")) / 0.05;
   EXPECT_NEAR(h.last("syy") - h.at(begin, "syy"), wanted, 0.02 * std::abs(wanted));
+}
+
+/// Three-point bending of a slender beam: rollers that turn and roll leave Timoshenko's stiffness, bonded ones clamp.
+TEST(LoadingRun, HingedRollersDoNotHinderABeam) {
+  const double length = 0.12, height = 0.02, thickness = 0.05, e = 50e9 / (1.0 - 0.0625), g = 50e9 / 2.5;
+  const auto stiffness = [&](const char* support, const std::string& name) {
+    const std::string supports = std::string(R"("width": 0.008, )") + support + R"("velocity": {"y": 0}})";
+    const RunResult r = run(plate(R"("boundaries": [
+        {"name": "left", "at": [-0.06, 0], "direction": [0, -1], )" +
+                                      supports + R"(,
+        {"name": "right", "at": [0.06, 0], "direction": [0, -1], )" +
+                                      supports + R"(,
+        {"name": "top", "at": [0, 0.02], "direction": [0, 1], "width": 0.004,
+         "force": {"y": {"value": -1000, "ramp": 2e-3}}, "velocity": {"x": 0}}],
+      "gauges": {"load": {"force_on": "top", "direction": [0, -1]},
+        "support": {"force_on": ["left", "right"], "direction": [0, 1]},
+        "deflection": {"displacement_of": {"point": [0, 0.01]}, "relative_to": [{"point": [-0.06, 0.01]},
+          {"point": [0.06, 0.01]}], "direction": [0, -1]}},
+      "method": {"damping": 0.3}, "stop": {"time": 4e-3},
+      "output": {"frames": 0, "pictures": false, "history_rows": 100})",
+                                  R"({"type": "rectangle", "low": [-0.07, 0], "high": [0.07, 0.02]})"),
+                            name);
+    EXPECT_EQ(r.ending, Ending::finished) << r.reason;
+    EXPECT_NEAR(r.history.last("support"), 1000.0, 5.0);
+    EXPECT_LT(std::abs(r.history.last("energy_error")), 2e-3 * r.history.last("energy_external"));
+    return r.history.last("load") / r.history.last("deflection");
+  };
+  const double inertia = height * height * height / 12.0 * thickness, area = height * thickness;
+  const double exact = 1.0 / (length * length * length / (48.0 * e * inertia) + length / (4.0 * 5.0 / 6.0 * g * area));
+  const double hinged = stiffness(R"("hinge": true, )", "hinged"), bonded = stiffness("", "bonded");
+  EXPECT_NEAR(hinged, exact, 0.05 * exact);  // ten rows
+  EXPECT_GT(bonded, 1.2 * hinged);
 }
 
 TEST(LoadingRun, WhatIsWrongWithALoadIsNamed) {

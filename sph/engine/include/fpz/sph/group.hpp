@@ -52,6 +52,8 @@ struct Group {
   std::string name;
   std::array<std::optional<Drive>, static_cast<std::size_t>(Dim)> drive;  ///< per component; empty: free
   bool elastic = true;                                                    ///< its particles never crack
+  /// A point about which the group turns freely as a rigid body, m; the drives are those of this point.
+  std::optional<Vec<double, Dim>> hinge = std::nullopt;
 };
 
 /// Forces that particles of the body feel, in a fixed pattern times a number that changes.

@@ -29,6 +29,9 @@ struct Boundary {
   std::optional<Platen> platen;  ///< none: its particles come from the particle file
   Actuations drive;              ///< per component; none: free
   bool elastic = true;
+  /// It turns freely as a rigid body about a point: this one, or where none is given the middle of its foot.
+  bool hinged = false;
+  std::optional<Point> hinge;
 };
 
 /// A gauge beyond a value.

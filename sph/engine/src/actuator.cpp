@@ -1,0 +1,32 @@
+#include "actuator.hpp"
+
+namespace fpz::sph::detail {
+
+void Actuator::advance(double now, double step, double past, double group_velocity) {
+  stretch += past * (drive_velocity - group_velocity);
+  switch (drive.kind) {
+    case Drive::Kind::velocity:
+      drive_velocity = drive.table.at(now + 0.5 * step);
+      break;
+    case Drive::Kind::displacement:
+      drive_velocity = (drive.table.at(now + step) - drive.table.at(now)) / step;
+      break;
+    case Drive::Kind::steered:
+      drive_velocity = steered;
+      break;
+    case Drive::Kind::force:
+      drive_velocity = 0.0;
+      break;
+  }
+}
+
+double Actuator::force(double now) const {
+  return drive.kind == Drive::Kind::force ? drive.table.at(now) : drive.machine_stiffness * stretch;
+}
+
+void Actuator::change(const Drive& other, double force) {
+  drive = other;
+  stretch = drive.machine_stiffness > 0.0 ? force / drive.machine_stiffness : 0.0;
+}
+
+}  // namespace fpz::sph::detail
