@@ -60,6 +60,7 @@ void plot_test(const io::Table& table, const PlotRequest& request) {
 /// Runs one test and writes all its files. Returns whether it came through.
 bool run_one(const Test& test, const fs::path& folder, const RunArguments& arguments) {
   io::make_writable_folder(folder);
+  io::print_warnings(test.warnings);
   Result result;
   {
     io::ProgressLine line;
@@ -70,6 +71,7 @@ bool run_one(const Test& test, const fs::path& folder, const RunArguments& argum
   std::cout << test.name << ": " << result.status << ", " << result.history.size()
             << " rows, D = " << result.summary.damage << ", energy balance " << result.summary.energy_balance << ", "
             << result.summary.wall_seconds << " s\n  " << (folder / "history.csv").string() << "\n";
+  io::print_warnings(result.warnings);
   if (!result.ok()) std::cerr << "error: " << result.message << "\n";
   if (arguments.plots) {
     const fpz::Parameters& p = test.parameters;

@@ -7,6 +7,7 @@
 
 #include "fpz/energy.hpp"
 #include "fpz/onset.hpp"
+#include "out_of_plane.hpp"
 #include "stage_control.hpp"
 
 namespace fpz::driver {
@@ -31,6 +32,8 @@ class PointRun {
     for (stage_ = 1; stage_ <= static_cast<int>(test_.stages.size()) && result_.ok(); ++stage_) run_stage();
     summarise();
     judge_stored_energy();
+    const std::string unseen = warning_out_of_plane(test_, result_);
+    if (!unseen.empty()) result_.warnings.push_back(unseen);
     result_.summary.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
     return std::move(result_);
   }

@@ -51,6 +51,9 @@ std::string to_json(const Test& test, const Result& result) {
   j["version"] = FPZ_VERSION;
   j["status"] = result.status;
   if (!result.ok()) j["message"] = result.message;
+  std::vector<std::string> warnings = test.warnings;
+  warnings.insert(warnings.end(), result.warnings.begin(), result.warnings.end());
+  j["warnings"] = warnings;
   j["units"] =
       "SI: stress Pa, energy per volume J/m^3, energy per crack area J/m^2, angles in degrees; time counts stages";
   j["setting"] = to_string(test.setting);

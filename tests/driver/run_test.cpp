@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "fpz/driver/compare.hpp"
 #include "helpers.hpp"
@@ -24,6 +25,38 @@ CompareOptions within(double tolerance) {
 Comparison against_reference(const Result& result, double tolerance) {
   return compare_histories(io::parse_csv(to_csv(result.history), "history"),
                            io::read_csv(FPZ_DATA_DIR "/reference/four_stage.csv"), within(tolerance));
+}
+
+/// Confined by 5 MPa in plane stress, the plane that fails first is inclined out of the plane, at the strength of
+/// uniaxial compression: 2 r with sqrt(r^2 + A^2) = c0 cos(phi) + r sin(phi).
+TEST(OutOfPlane, ConfinedPlaneStressWarnsAtTheStrengthOf3D) {
+  const auto path = [](const std::string& setting, const std::string& confinement) {
+    return parse_path_file(R"({"name": "confined", "rve_length": 2e-4, "setting": ")" + setting + R"(",
+      "integrator": {"name": "accurate", "tolerance": 1e-6},
+      "material": {"young_modulus": 20e9, "poisson_ratio": 0.25, "density": 2400, "tensile_strength": 3e6,
+        "cohesion": 8e6, "friction_angle_deg": 40, "dilation_angle_deg": 10, "delta0": 50e-6,
+        "normal_stiffness": 1e14, "shear_stiffness": 1e14},
+      "stages": [{"increments": 10, "stress": {"xx": )" +
+                               confinement + R"(, "yy": )" + confinement + R"(}},
+                 {"increments": 200, "strain": {"yy": -0.012}, "stress": {"xx": )" +
+                               confinement + R"(}, "stop": {"D": 0.01}}]})",
+                           "x.json")
+        .tests.at(0);
+  };
+  const double phi = 40.0 * std::numbers::pi / 180.0, c = 8.0, a = c - 3.0 * std::tan(phi);
+  const double k = c * std::cos(phi), s = std::sin(phi), q = 1.0 - s * s;
+  const double strength = 2.0 * (k * s + std::sqrt(k * k * s * s - q * (a * a - k * k))) / q;  // MPa
+  ASSERT_NEAR(strength, 28.64, 0.01);
+  const Result confined = run_test(path("plane_stress", "-5e6"));
+  ASSERT_EQ(confined.warnings.size(), 1u);
+  for (const std::string& part :
+       {std::string("test \"confined\": setting = \"plane_stress\""), std::string("sig_xx = -5,"),
+        std::string("sig_yy = -28.64, sig_zz = 0"), std::string("\"setting\": \"3d\"")}) {
+    EXPECT_THAT(confined.warnings[0], HasSubstr(part));
+  }
+  // Without confinement the plane is in the plane; in plane strain the stress across it lies between the others.
+  EXPECT_TRUE(run_test(path("plane_stress", "0")).warnings.empty());
+  EXPECT_TRUE(run_test(path("plane_strain", "-5e6")).warnings.empty());
 }
 
 /// A softening law from the material of a path file, all the way to history and summary.

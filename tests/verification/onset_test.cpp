@@ -7,6 +7,7 @@
 
 #include <random>
 
+#include "fpz/out_of_plane.hpp"
 #include "fpz/update.hpp"
 #include "support/paths.hpp"
 
@@ -70,6 +71,27 @@ void expect_scan_converges(double finest) {
       EXPECT_GE(plane.failure_value, exact - 0.5 * curvature * angle * angle);
     }
   }
+}
+
+/// The largest F of a 2-D state over planes of space is that of the same stresses in 3-D.
+TEST(CriticalPlane, OfA2DStateInSpaceIsThatOf3D) {
+  std::mt19937_64 rng(7);
+  int inclined = 0;
+  for (const Setting setting : {Setting::plane_strain, Setting::plane_stress}) {
+    for (const Parameters& p : all_tables()) {
+      const Material<double> m = make_material(p, setting), solid = make_material(p, Setting::three_d);
+      for (int i = 0; i < 200; ++i) {
+        const Tensor<double, 2> s = random_tensor<2>(rng, 3.0 * p.cohesion);
+        const double zz = setting == Setting::plane_stress ? 0.0 : p.poisson_ratio * (s[0] + s[1]);
+        Tensor<double, 3> full;
+        full << s[0], s[1], zz, s[2], 0.0, 0.0;
+        const double expected = critical_plane<3>(solid, full).failure_value;
+        EXPECT_NEAR(failure_value_in_space(m, s), expected, 1e-9 * p.cohesion);
+        if (expected > critical_plane<2>(m, s).failure_value + 1e-6 * p.cohesion) ++inclined;
+      }
+    }
+  }
+  EXPECT_GT(inclined, 100);
 }
 
 TEST(Scan, ConvergesToTheClosedFormIn2D) { expect_scan_converges<2>(0.01); }

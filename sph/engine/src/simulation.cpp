@@ -6,6 +6,7 @@
 
 #include "engine.hpp"
 #include "fpz/energy.hpp"
+#include "fpz/out_of_plane.hpp"
 
 namespace fpz::sph {
 
@@ -131,6 +132,18 @@ template <int Dim>
 std::size_t Simulation<Dim>::cracked() const {
   std::size_t n = 0;
   for (const double k : particles().kind) n += k == kind::cracked ? 1 : 0;
+  return n;
+}
+
+template <int Dim>
+std::size_t Simulation<Dim>::failing_out_of_plane() const {
+  const detail::RunData<Dim>& run = engine_->run;
+  const double nothing = 1e-6 * run.material.law.surface.cohesion;  // those about to crack are on the surface
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < particles().count; ++i) {
+    if (particles().kind[i] != kind::intact) continue;
+    n += failure_value_in_space(run.material, particles().stress_of(i)) > nothing ? 1U : 0U;
+  }
   return n;
 }
 

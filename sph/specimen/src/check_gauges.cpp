@@ -84,7 +84,6 @@ void check_displacement(const SceneCheck& c, const Place& gauge, const Displacem
     }
   });
   with(gauge, "relative_to", [&](const Place& p) { check_sites(c, p, g.relative_to); });
-  with(gauge, "notch_opening", [&](const Place& p) { check_opening(c, p); });
 }
 
 }  // namespace
@@ -96,6 +95,7 @@ void check_gauges(const SceneCheck& c) {
       if (gauge == c.scene.gauges.end()) continue;
       const Place p(gauges, member);
       if (const auto* d = std::get_if<DisplacementGauge>(&gauge->second)) check_displacement(c, p, *d);
+      with(p, "notch_opening", [&](const Place& opening) { check_opening(c, opening); });
       if (const auto* s = std::get_if<StressGauge>(&gauge->second)) {
         with(p, "of", [&](const Place& of) { check_sites(c, of, {s->of}); });
       }

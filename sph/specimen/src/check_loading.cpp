@@ -283,8 +283,8 @@ void check_displacement_sign(const SceneCheck& c, const Place& gauge, const Disp
 
 /// The deflection at which a run stops must come within its time.
 void check_reach(const SceneCheck& c, const Courses& all) {
-  const auto& g = std::get<DisplacementGauge>(c.scene.gauges.at("deflection"));
-  const auto axis = axis_of(g.direction);
+  const auto* g = std::get_if<DisplacementGauge>(&c.scene.gauges.at("deflection"));
+  const auto axis = g != nullptr ? axis_of(g->direction) : std::nullopt;
   if (!axis || !c.scene.stop.deflection || has_forces(c.scene, all)) return;
   const auto any = travels(
       all, *axis, 1.0, [](std::size_t) { return true; }, true);

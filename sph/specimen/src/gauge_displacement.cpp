@@ -1,4 +1,4 @@
-// The displacement of a site against others, and the opening of a notch, which is one between its faces.
+// The displacement of a site against others.
 #include "gauge_kinds.hpp"
 
 namespace fpz::specimen::detail {
@@ -16,18 +16,6 @@ Gauge read(const InputReader& r, const Place& gauge, const Place& value, const S
   return g;
 }
 
-/// Between the nearest particles of the two faces at the mouth.
-Gauge read_notch_opening(const InputReader& r, const Place& /*gauge*/, const Place& value, const Scene& scene) {
-  DisplacementGauge g;
-  const Notch* notch = notch_at(r, value, scene);
-  if (notch == nullptr) return g;
-  const double offset = 0.5 * notch->width + 0.5 * scene.spacing;
-  g.direction = across(*notch);
-  g.of.centre = notch->mouth + offset * g.direction;
-  g.relative_to.emplace_back().centre = notch->mouth - offset * g.direction;
-  return g;
-}
-
 Point mean_displacement(const sph::Simulation<2>& run, const std::vector<std::size_t>& ids) {
   const sph::Particles<2>& p = run.particles();
   Point sum = Point::Zero();
@@ -41,7 +29,6 @@ Point mean_displacement(const sph::Simulation<2>& run, const std::vector<std::si
 }  // namespace
 
 const GaugeKind displacement_gauge = {"displacement_of", uses, read};
-const GaugeKind notch_opening_gauge = {"notch_opening", {}, read_notch_opening};
 
 BoundGauge bind(const DisplacementGauge& gauge, const GaugeBinding& to) {
   const std::vector<std::size_t> of = particles_of(gauge.of, to);

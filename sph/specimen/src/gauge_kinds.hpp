@@ -38,6 +38,7 @@ struct GaugeBinding {
 /// Throws io::InputError when a site has no particle.
 [[nodiscard]] BoundGauge bind(const ForceGauge& gauge, const GaugeBinding& to);
 [[nodiscard]] BoundGauge bind(const DisplacementGauge& gauge, const GaugeBinding& to);
+[[nodiscard]] BoundGauge bind(const OpeningGauge& gauge, const GaugeBinding& to);
 [[nodiscard]] BoundGauge bind(const StressGauge& gauge, const GaugeBinding& to);
 
 /// Indices of the particles of a site. Throws io::InputError when there are none in its box.

@@ -38,7 +38,10 @@ std::vector<HistoryColumn> counts() {
        [](const RowSource& s) { return static_cast<double>(s.run.cracked()); }},
       {"largest_damage", "", "largest D of all particles", [](const RowSource& s) { return largest_damage(s.run); }},
       {"released_bonds", "", "bonds that have been cut",
-       [](const RowSource& s) { return static_cast<double>(s.run.released_bonds()); }}};
+       [](const RowSource& s) { return static_cast<double>(s.run.released_bonds()); }},
+      {"failing_out_of_plane", "",
+       "uncracked particles that would have cracked in 3-D, on planes inclined out of the plane",
+       [](const RowSource& s) { return static_cast<double>(s.run.failing_out_of_plane()); }}};
 }
 
 HistoryColumn gauge(const std::string& name, std::size_t k, std::string_view unit, std::string_view text) {

@@ -56,7 +56,8 @@ void require_kind(const InputReader& r, const Place& place, const Scene& scene, 
   const auto at = scene.gauges.find(std::string(wanted.name));
   if (at == scene.gauges.end()) return;
   const bool fits = wanted.is_force ? std::holds_alternative<ForceGauge>(at->second)
-                                    : std::holds_alternative<DisplacementGauge>(at->second);
+                                    : std::holds_alternative<DisplacementGauge>(at->second) ||
+                                          std::holds_alternative<OpeningGauge>(at->second);
   if (fits) return;
   r.problem(Place(place, *place.value().find(wanted.name)),
             wanted.is_force ? "must measure a force" : "must measure a displacement");

@@ -159,11 +159,31 @@ void warn_of_signs(const History& h, std::vector<std::string>& list) {
   }
 }
 
+/// A 2-D setting looks at planes through the out-of-plane axis only.
+void warn_of_unseen_planes(const Scene& scene, const History& h, std::vector<std::string>& list) {
+  constexpr double noticed = 3.0;  // particles
+  double most = 0.0;
+  std::size_t first = h.rows();
+  for (std::size_t r = h.rows(); r-- > 0;) {
+    const double failing = h.at(r, "failing_out_of_plane");
+    most = std::max(most, failing);
+    if (failing >= noticed) first = r;
+  }
+  if (first == h.rows()) return;
+  std::ostringstream s;
+  s << "setting = \"" << to_string(scene.setting) << "\": up to " << most
+    << " particles would have cracked on planes inclined out of the plane, which it does not look at, from "
+    << h.at(first, "time") << " s on (load " << h.at(first, "load") << " N): strengths beyond that are too high";
+  if (scene.setting == Setting::plane_stress) s << "; a thick specimen is nearer to \"plane_strain\"";
+  list.push_back(s.str());
+}
+
 }  // namespace
 
 std::vector<std::string> warnings_of(const Scene& scene, const History& h, const Findings& f) {
   std::vector<std::string> list;
   warn_of_signs(h, list);
+  warn_of_unseen_planes(scene, h, list);
   if (h.rows() > 1 && peak_row(h) + 1 == h.rows()) {
     list.push_back("the load was still rising at the end: the peak load is not reached");
   }

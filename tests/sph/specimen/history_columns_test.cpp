@@ -36,6 +36,7 @@ TEST(HistoryColumns, NamesAndOrder) {
                                              "damaged_particles",
                                              "largest_damage",
                                              "released_bonds",
+                                             "failing_out_of_plane",
                                              "a",
                                              "sigma"};
   EXPECT_EQ(names(history_columns({"a", "cmod", "load", "sigma"})), expected);

@@ -241,8 +241,10 @@ TEST(LoadingRun, AServoLetsTheCrackMouthOpenSteadily) {
 /// machine goes back while the crack opens further.
 TEST(LoadingRun, AServoGoesBackWithASnapBack) {
   const double machine = 2.4e8, rate = 4e-4;
+  const std::string clip = R"(gauges.cmod={"displacement_of": {"point": [-0.0085, 0]},
+    "relative_to": {"point": [0.0085, 0]}, "direction": [-1, 0]})";
   const auto with = [&](const std::string& velocity) {
-    return coarse_beam("beam_cmod.json", {"spacing=0.005", "material.delta0=4e-6", "stop.time=0.04", velocity,
+    return coarse_beam("beam_cmod.json", {"spacing=0.005", "material.delta0=4e-6", "stop.time=0.04", velocity, clip,
                                           R"(boundaries[0].machine_stiffness={"y": 2.4e8})",
                                           R"(stop.gauges={"cmod": {"above": 6.9e-6}})"});
   };

@@ -158,12 +158,12 @@ TEST(Run, AnExplodingRunSaysSo) {
 TEST(Summary, WarnsWithoutBeingAsked) {
   const Scene scene = small_beam({"method.damping=0.1", "method.mass_scale=4"});
   History h;
-  h.columns = {"deflection",     "load",           "support",         "energy_external",
-               "energy_elastic", "energy_kinetic", "energy_fracture", "energy_damping",
-               "energy_error",   "energy_viscous"};
+  h.columns = {
+      "deflection",      "load",           "support",      "energy_external", "energy_elastic",      "energy_kinetic",
+      "energy_fracture", "energy_damping", "energy_error", "energy_viscous",  "failing_out_of_plane"};
   for (int k = 0; k <= 20; ++k) {
     const double u = 1e-6 * k;
-    h.values.insert(h.values.end(), {u, 1e8 * u, 0.9e8 * u, 1.0, 0.5, 0.1, 0.1, 0.2, 0.05, 0.0});
+    h.values.insert(h.values.end(), {u, 1e8 * u, 0.9e8 * u, 1.0, 0.5, 0.1, 0.1, 0.2, 0.05, 0.0, 0.0});
   }
   const Findings f = findings(scene, h, 0.0, 0.0);
   EXPECT_NEAR(f.stiffness, 1e8, 1.0);
@@ -180,14 +180,14 @@ TEST(Summary, WarnsWithoutBeingAsked) {
 /// A history of four rows: external work, elastic, kinetic, fracture and viscous energy of each.
 History energies(const std::vector<std::array<double, 5>>& rows) {
   History h;
-  h.columns = {"deflection",      "load",           "support",
-               "energy_external", "energy_elastic", "energy_kinetic",
-               "energy_fracture", "energy_viscous", "energy_error"};
+  h.columns = {
+      "deflection",      "load",           "support",      "energy_external",     "energy_elastic", "energy_kinetic",
+      "energy_fracture", "energy_viscous", "energy_error", "failing_out_of_plane"};
   double u = 0.0;
   for (const auto& [work, elastic, kinetic, fracture, viscous] : rows) {
     const double load = u < 2.5e-6 ? 1e8 * u : 0.0;
     h.values.insert(h.values.end(), {u, load, load, work, elastic, kinetic, fracture, viscous,
-                                     work - elastic - kinetic - fracture - viscous});
+                                     work - elastic - kinetic - fracture - viscous, 0.0});
     u += 1e-6;
   }
   return h;
@@ -197,6 +197,32 @@ std::string warnings(const Scene& scene, const History& h, const Findings& f) {
   std::string all;
   for (const std::string& w : warnings_of(scene, h, f)) all += w + "\n";
   return all;
+}
+
+TEST(Summary, GaugesThatGoTheWrongWayAreNamed) {
+  const Scene scene = small_beam({});
+  History h = energies({{0, 0, 0, 0, 0}, {1, 1, 0, 0, 0}, {4, 4, 0, 0, 0}, {4, 0, 0, 4, 0}});
+  EXPECT_EQ(warnings(scene, h, findings(scene, h, 0.0, 0.0)).find("wrong way"), std::string::npos);
+  for (std::size_t r = 0; r < h.rows(); ++r) h.values[r * h.columns.size() + 1] *= -1.0;  // the load
+  const std::string said = warnings(scene, h, findings(scene, h, 0.0, 0.0));
+  EXPECT_NE(said.find("gauges.load.direction: the load falls to -200 and rises to 0 only"), std::string::npos) << said;
+  EXPECT_EQ(said.find("gauges.deflection"), std::string::npos) << said;
+}
+
+/// Bonded platens confine a plate; in plane stress the stress across it is the largest there.
+TEST(Run, PlanesOutOfThePlaneAreSaid) {
+  const auto said = [](const char* setting) {
+    const Scene scene =
+        read_scene(scenes / "uniaxial_compression.json", {"spacing=0.005", "output.frames=0", "output.pictures=false",
+                                                          "stop.time=0.003", std::string("setting=") + setting});
+    std::string all;
+    for (const std::string& w : run(scene, fpz::test::fresh_path(setting)).warnings) all += w + "\n";
+    return all;
+  };
+  const std::string stress = said("plane_stress"), strain = said("plane_strain");
+  EXPECT_NE(stress.find("setting = \"plane_stress\": up to "), std::string::npos) << stress;
+  EXPECT_NE(stress.find("particles would have cracked on planes inclined out of the plane"), std::string::npos);
+  EXPECT_EQ(strain.find("out of the plane"), std::string::npos) << strain;
 }
 
 TEST(Summary, MoreMotionThanWorkIsACollapse) {

@@ -174,18 +174,6 @@ TEST(Scene, GaugesThatFindNothingAreRefused) {
             std::string::npos);
 }
 
-TEST(Scene, NotchOpeningLooksAtBothFaces) {
-  const Scene scene = read_scene(scenes / "beam_3pb.json", {"notches[0].width=0"});
-  const Specimen s = make_specimen(scene);
-  const BoundGauge& cmod = s.gauges.at("cmod");
-  ASSERT_EQ(cmod.sites.size(), 2u);
-  ASSERT_EQ(cmod.sites[0].size(), 1u);
-  ASSERT_EQ(cmod.sites[1].size(), 1u);
-  const Point left = s.setup.arrangement.position[cmod.sites[0][0]],
-              right = s.setup.arrangement.position[cmod.sites[1][0]];
-  EXPECT_NEAR((left - right).dot(std::get<DisplacementGauge>(scene.gauges.at("cmod")).direction), 0.004, 1e-12);
-}
-
 /// Particles interact around the tip of a notch but never across its faces, whatever its width and angle.
 TEST(Scene, SlotsAreMeasuredAtTheirParticles) {
   // 4 mm columns beside the slot of 9.6 mm: two are missing, and parts of the cells beside them.

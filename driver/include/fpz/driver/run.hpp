@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "fpz/driver/history.hpp"
 #include "fpz/driver/path_file.hpp"
@@ -66,6 +67,7 @@ struct Result {
   Summary summary;
   std::string status = "ok";  ///< "ok", the name of a Status, "load_limit" or "negative_energy"
   std::string message;
+  std::vector<std::string> warnings;  ///< doubtful about the path, found while it ran
 
   [[nodiscard]] bool ok() const { return status == "ok"; }
 };

@@ -100,6 +100,9 @@ class Simulation {
   /// Largest overlap of faces that have met (notches, released cracks), m. NaN where nothing keeps faces apart
   /// (`updated`, or contact_stiffness 0).
   [[nodiscard]] double overlap() const;
+  /// Uncracked particles that would have cracked in 3-D, on planes inclined out of the plane of the setting
+  /// (out_of_plane.hpp); those that never crack do not count.
+  [[nodiscard]] std::size_t failing_out_of_plane() const;
   [[nodiscard]] long long released_bonds() const;
   [[nodiscard]] long long neighbour_builds() const;
   /// Real neighbours per particle, on average.

@@ -32,6 +32,12 @@ struct DisplacementGauge {
   std::vector<Site> relative_to;  ///< the mean of these; none: space
   Point direction = Point::Zero();
 };
+/// Displacement of one face of a notch against the other at its mouth, positive when it opens. m.
+struct OpeningGauge {
+  Point mouth = Point::Zero();
+  Point direction = Point::Zero();  ///< across the notch, unit length
+  double half_width = 0.0;          ///< m
+};
 /// A component of a symmetric tensor in the plane; its value is the index in the engine's fields.
 enum class PlaneComponent : std::uint8_t { xx, yy, xy };
 /// Mean stress of a site. Pa.
@@ -39,7 +45,7 @@ struct StressGauge {
   Site of;
   PlaneComponent component = PlaneComponent::xx;
 };
-using Gauge = std::variant<ForceGauge, DisplacementGauge, StressGauge>;
+using Gauge = std::variant<ForceGauge, DisplacementGauge, OpeningGauge, StressGauge>;
 
 /// A gauge that knows its particles.
 struct BoundGauge {

@@ -15,7 +15,7 @@ namespace fpz::specimen {
 /// column in every history.
 struct SteeringGauge {
   std::string_view name;
-  bool is_force = false;  ///< a ForceGauge; else a DisplacementGauge
+  bool is_force = false;  ///< a ForceGauge; else a DisplacementGauge or an OpeningGauge
   bool required = false;
   std::string_view text;
 };
