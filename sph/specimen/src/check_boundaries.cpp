@@ -46,6 +46,19 @@ void check_footing(const SceneCheck& c, const Place& p, const Platen& platen, co
   });
 }
 
+/// A platen turns about a point in it or near it.
+void check_hinge(const SceneCheck& c, const Place& p, const Boundary& b, const Footing& f) {
+  if (!b.hinge) return;
+  const auto [low, high] = extent(c.scene.body.shape);
+  const double away = (*b.hinge - f.feet[f.feet.size() / 2]).norm(), size = (high - low).maxCoeff();
+  if (away <= size) return;
+  with(p, "hinge", [&](const Place& at) {
+    c.problem(at, "is " + brief(away) + " m from the platen, which stands at " + brief(f.feet[f.feet.size() / 2]) +
+                      "; must be <= " + brief(size) + ", the size of the body" +
+                      likely_place(*b.hinge, c.scene.body.shape));
+  });
+}
+
 /// The platen stands where its columns meet the surface from outside; `at` should be near that.
 void check_side(const SceneCheck& c, const Place& p, const Platen& platen, const Footing& f) {
   constexpr double near = 2.0, far = 0.25;
@@ -117,6 +130,7 @@ void check_boundaries(const SceneCheck& c) {
     }
     if (platen && f.feet.size() == f.columns) {
       check_side(c, p, *platen, f);
+      check_hinge(c, p, c.scene.boundaries[k], f);
       check_ground(c, p, *platen, f);
       check_overlap(c, p, f, earlier);
     }

@@ -142,6 +142,19 @@ void check_drives(const SceneCheck& c, const Courses& all) {
   });
 }
 
+/// Before a wave has crossed the body, nothing that a test measures has happened.
+void check_time(const SceneCheck& c) {
+  if (c.scene.particles) return;
+  const auto [low, high] = extent(c.scene.body.shape);
+  const double crossing = (high - low).maxCoeff() * c.scene.parameters.density / impedance(c.scene);
+  if (c.scene.stop.time >= crossing) return;
+  with(c.root, "stop", [&](const Place& stops) {
+    with(stops, "time", [&](const Place& p) {
+      c.warn(p, "shorter than the " + brief(crossing) + " s that a wave takes to cross the body");
+    });
+  });
+}
+
 /// A run that only its time ends should not tear the specimen to shreds.
 void check_travel(const SceneCheck& c, const Courses& all) {
   constexpr double too_far = 0.1;
@@ -332,6 +345,7 @@ void check_loading(const SceneCheck& c) {
   const bool in_stages = c.root.value().find("stages") != nullptr;  // the first alone says little
   if (!in_stages) check_motion(c, all);
   check_drives(c, all);
+  check_time(c);
   check_travel(c, all);
   if (c.reader.problems().size() == before && !in_stages) check_signs(c, all);
 }

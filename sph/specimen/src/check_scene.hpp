@@ -25,6 +25,7 @@ void check_holes(const SceneCheck& c);
 void check_rows(const SceneCheck& c);
 void check_boundaries(const SceneCheck& c);
 void check_loading(const SceneCheck& c);
+void check_loads(const SceneCheck& c);
 void check_gauges(const SceneCheck& c);
 void check_end(const SceneCheck& c);
 

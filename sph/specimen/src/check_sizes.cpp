@@ -22,6 +22,17 @@ void check_body_size(const SceneCheck& c) {
   });
 }
 
+/// A spacing in micrometres asks for more particles than any machine has room for.
+void check_count(const SceneCheck& c) {
+  constexpr double many = 5e6, most = 2e8;
+  const double count = area(c.scene.body) / (c.scene.spacing * c.scene.spacing);
+  if (count < many) return;
+  with(c.root, "spacing", [&](const Place& p) {
+    const std::string text = "makes about " + brief(count) + " particles of the body";
+    count > most ? c.problem(p, text + "; must be >= " + brief(std::sqrt(area(c.scene.body) / most))) : c.warn(p, text);
+  });
+}
+
 /// The body with cuts in place of slots that would leave nothing of it: with a spacing that is far too large.
 Body with_possible_slots(Body body) {
   const auto [low, high] = extent(body.shape);
@@ -86,6 +97,7 @@ void check_sizes(const SceneCheck& c) {
        [&](const Place& p) { judge_length(c, p, "thickness", c.scene.thickness, io::typical::small_size); });
   check_body_size(c);
   check_gravity(c);
+  check_count(c);
 }
 
 void check_rows(const SceneCheck& c) {

@@ -44,8 +44,8 @@ const PointData& field(const PointCloud& cloud, const char* name) {
 
 const std::vector<ColourClass>& damage_classes() {
   static const std::vector<ColourClass> classes = {
-      {"boundary", "#9FB3C8"}, {"D = 0", "#E4E4E0"},  {"to 0.25", "#F7D774"},  {"to 0.5", "#F2A541"},
-      {"to 0.75", "#E0662B"},  {"to 0.9", "#B3261E"}, {"above 0.9", "#5C0A12"}};
+      {"boundary", "#9FB3C8"}, {"D < 0.05", "#E4E4E0"}, {"to 0.25", "#F7D774"},  {"to 0.5", "#F2A541"},
+      {"to 0.75", "#E0662B"},  {"to 0.9", "#B3261E"},   {"above 0.9", "#5C0A12"}};
   return classes;
 }
 
@@ -55,7 +55,7 @@ ParticleMap damage_map(const PointCloud& cloud, std::string title) {
   const auto& group = field(cloud, "group").values;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const double d = damage[i];
-    const std::size_t k = d <= 0.0 ? 1 : d <= 0.25 ? 2 : d <= 0.5 ? 3 : d <= 0.75 ? 4 : d <= 0.9 ? 5 : 6;
+    const std::size_t k = d < 0.05 ? 1 : d <= 0.25 ? 2 : d <= 0.5 ? 3 : d <= 0.75 ? 4 : d <= 0.9 ? 5 : 6;
     map.colour.push_back(group[i] >= 0.0 ? 0 : k);
   }
   return map;

@@ -230,6 +230,29 @@ TEST(Checks, Loading) {
   });
 }
 
+TEST(Checks, Loads) {
+  const char* confined = "confined_compression.json";
+  expect_answers({
+      {warned,
+       confined,
+       {"loads[0].pressure.value=5"},
+       {"loads[0].pressure.value: pressure = 5 Pa is far below any", "5 MPa was probably meant: write 5e+06"}},
+      {warned,
+       beam,
+       {R"(boundaries[0].force={"y": {"value": -3, "ramp": 0.01}})", R"(boundaries[0].velocity={"x": 0})"},
+       {"boundaries[0].force.y.value: force = 3 N is far below any", "3 kN was probably meant"}},
+      {refused,
+       beam,
+       {R"(boundaries[0].hinge=[0, 84])"},
+       {"boundaries[0].hinge: [0, 84]: is 83.92 m from the platen", "84 mm was probably meant"}},
+      {warned,
+       beam,
+       {"stop.time=1e-6", "boundaries[0].velocity.y.ramp=0"},
+       {"stop.time: 1e-6: shorter than the 6.807e-05 s"}},
+      {refused, beam, {"spacing=4e-6"}, {"spacing: 4e-6: makes about 1.6e+09 particles", "must be >="}},
+  });
+}
+
 TEST(Checks, SignsOfGauges) {
   expect_answers({
       {refused,
