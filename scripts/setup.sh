@@ -8,7 +8,7 @@ packages=(
   libeigen3-dev libceres-dev nlohmann-json3-dev libcli11-dev
   libgtest-dev libgmock-dev libbenchmark-dev
   gnuplot-nox libgnuplot-iostream-dev
-  libboost-iostreams-dev libboost-filesystem-dev libboost-system-dev
+  libboost-iostreams-dev libboost-filesystem-dev libboost-system-dev zlib1g-dev
 )
 case "${1:-}" in
   "") ;;

@@ -11,8 +11,7 @@ constexpr std::array<std::string_view, 2> component_names = {"x", "y"};
 void judge_load(const SceneCheck& c, const Place& stated, std::string_view what, double si,
                 const io::Typical& typical) {
   if (si == 0.0) return;
-  const io::Judgement j =
-      io::judge(what, {si, si, io::si_unit(typical.quantity)}, typical, io::Spelling::si_only);
+  const io::Judgement j = io::judge(what, {si, si, io::si_unit(typical.quantity)}, typical, io::Spelling::si_only);
   if (j.verdict != io::Verdict::impossible || !j.other_unit) return;
   at_member(stated, "value", [&](const Place& p) { c.warnings.push_back(c.reader.where(p) + ": " + j.text); });
 }
@@ -34,9 +33,8 @@ void judge_force(const SceneCheck& c, const Place& boundary, const Boundary& b) 
 void check_loads(const SceneCheck& c) {
   for_entries(c, "loads", [&](const Place& load, std::size_t k) {
     for (const char* key : {"pressure", "traction"}) {
-      with(load, key, [&](const Place& p) {
-        judge_load(c, p, key, c.scene.loads[k].course.largest(), io::typical::pressure);
-      });
+      with(load, key,
+           [&](const Place& p) { judge_load(c, p, key, c.scene.loads[k].course.largest(), io::typical::pressure); });
     }
   });
   for_entries(c, "boundaries", [&](const Place& p, std::size_t k) { judge_force(c, p, c.scene.boundaries[k]); });

@@ -3,13 +3,18 @@
 #include <cstring>
 #include <limits>
 #include <optional>
+#include <stdexcept>
 
 #include "fpz/io/json_locator.hpp"
 #include "fpz/specimen/vtu.hpp"
+#include "vtk_legacy.hpp"
+#include "vtk_words.hpp"
+#include "vtu_block.hpp"
 
 namespace fpz::specimen {
 namespace {
 
+using namespace detail;
 using io::InputError;
 
 /// The value of an attribute of a tag; empty when it is not there.
@@ -29,32 +34,6 @@ std::optional<std::size_t> count_of(const std::string& text) {
   if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
   return n;
 }
-
-/// Words of a text, one after the other.
-class Words {
- public:
-  explicit Words(std::string_view text) : text_(text) {}
-  std::string_view next() {
-    const auto begin = text_.find_first_not_of(blanks, at_);
-    if (begin == std::string_view::npos) return at_ = text_.size(), std::string_view();
-    const auto end = std::min(text_.find_first_of(blanks, begin), text_.size());
-    at_ = end;
-    return text_.substr(begin, end - begin);
-  }
-  std::optional<double> number() {
-    const std::string_view w = next();
-    double x = 0.0;
-    const auto [end, error] = std::from_chars(w.data(), w.data() + w.size(), x);
-    if (w.empty() || error != std::errc() || end != w.data() + w.size()) return std::nullopt;
-    return x;
-  }
-  void skip_line() { at_ = std::min(text_.find('\n', at_), text_.size()); }
-
- private:
-  static constexpr const char* blanks = " \t\r\n";
-  std::string_view text_;
-  std::size_t at_ = 0;
-};
 
 template <class T>
 std::vector<double> convert(std::string_view raw) {
@@ -83,11 +62,15 @@ class VtuReader {
   PointCloud read() {
     const std::string_view head = tag("<VTKFile", 0);
     if (attribute(head, "type") != "UnstructuredGrid") fail("not a VTK unstructured grid");
-    if (!attribute(head, "compressor").empty()) fail("is compressed; write it without compression");
+    const std::string compressor = attribute(head, "compressor");
+    if (!compressor.empty() && compressor != "vtkZLibDataCompressor") {
+      fail("is compressed by " + compressor + "; write it with vtkZLibDataCompressor or without compression");
+    }
+    format_.compressed = !compressor.empty();
     if (attribute(head, "byte_order") != "LittleEndian") fail("is not little-endian");
-    wide_ = attribute(head, "header_type") == "UInt64";
+    format_.wide = attribute(head, "header_type") == "UInt64";
     if (const auto at = text_.find("<AppendedData"); at != std::string_view::npos) {
-      if (attribute(tag("<AppendedData", 0), "encoding") != "raw") fail("appended data must be raw");
+      format_.base64 = attribute(tag("<AppendedData", 0), "encoding") == "base64";
       appended_ = text_.find('_', at) + 1;
     }
     const auto points = count_of(attribute(tag("<Piece", 0), "NumberOfPoints"));
@@ -134,98 +117,42 @@ class VtuReader {
       if (!n || *n == 0 || *n > 100) fail("an array with a wrong number of components");
       d.components = static_cast<int>(*n);
       const std::string format = attribute(t, "format");
+      const auto begin = at + t.size() + 1;
+      const std::string_view inside = text_.substr(begin, text_.find('<', begin) - begin);
       if (format == "appended") {
         d.values = convert(attribute(t, "type"), block(attribute(t, "offset")), file_);
+      } else if (format == "binary") {
+        d.values = convert(attribute(t, "type"), block_at(inside, {true, format_.compressed, format_.wide}), file_);
       } else if (format == "ascii") {
-        const auto begin = at + t.size() + 1;
-        Words words(text_.substr(begin, text_.find('<', begin) - begin));
+        Words words(inside);
         while (const auto x = words.number()) d.values.push_back(*x);
       } else {
-        fail("arrays of format \"" + format + "\" are not supported (ascii and raw appended are)");
+        fail("arrays of format \"" + format + "\" are not supported (ascii, binary and appended are)");
       }
       all.push_back(std::move(d));
     }
     return all;
   }
 
-  [[nodiscard]] std::string_view block(const std::string& offset) const {
+  [[nodiscard]] std::string block(const std::string& offset) const {
     const auto at = count_of(offset);
-    const std::size_t width = wide_ ? 8 : 4;
-    const std::size_t begin = appended_ + at.value_or(text_.size());
-    if (!at || begin + width > text_.size()) fail("an appended block lies outside the file");
-    std::uint64_t length = 0;
-    std::memcpy(&length, text_.data() + begin, width);
-    if (length > text_.size() - begin - width) fail("the file ends within its data");
-    return text_.substr(begin + width, length);
+    if (!at || *at > text_.size() - appended_) fail("an appended block lies outside the file");
+    return block_at(text_.substr(appended_ + *at), format_);
+  }
+
+  [[nodiscard]] std::string block_at(std::string_view text, const BlockFormat& format) const {
+    try {
+      return read_block(text, format);
+    } catch (const std::runtime_error& e) {
+      fail(e.what());
+    }
   }
 
   std::string_view text_;
   std::string file_;
-  bool wide_ = false;
+  BlockFormat format_;
   std::size_t appended_ = std::string_view::npos;
 };
-
-PointCloud read_legacy(std::string_view text, const std::string& file) {
-  const auto fail = [&](const std::string& why) { throw InputError(file + ": " + why); };
-  const auto header_end = text.find('\n', text.find('\n') + 1);  // version and title
-  Words words(text.substr(std::min(header_end, text.size())));
-  if (words.next() != "ASCII") fail("only ASCII legacy files are supported; write it as .vtu or as ASCII");
-  PointCloud cloud;
-  std::size_t tuples = 0;
-  const auto count = [&] {
-    const auto n = words.number();
-    if (!n || *n < 0.0 || *n > 1e9) fail("a number is missing");
-    return static_cast<std::size_t>(*n);
-  };
-  const auto values = [&](std::size_t n) {
-    std::vector<double> v;
-    for (std::size_t k = 0; k < n; ++k) {
-      const auto x = words.number();
-      if (!x) fail("a number is missing among the data");
-      v.push_back(*x);
-    }
-    return v;
-  };
-  bool at_points = false;
-  for (std::string_view w = words.next(); !w.empty(); w = words.next()) {
-    if (w == "POINTS") {
-      const std::size_t n = count();
-      (void)words.next();
-      cloud.points = values(3 * n);
-    } else if (w == "POINT_DATA") {
-      tuples = count();
-      at_points = true;
-    } else if (w == "CELL_DATA") {
-      at_points = false;
-      tuples = count();
-    } else if (w == "SCALARS" || w == "VECTORS") {
-      PointData d;
-      d.name = words.next();
-      d.components = w == "VECTORS" ? 3 : 1;
-      words.skip_line();
-      if (w == "SCALARS") (void)words.next(), (void)words.next();  // LOOKUP_TABLE name
-      d.values = values(tuples * static_cast<std::size_t>(d.components));
-      if (at_points) cloud.data.push_back(std::move(d));
-    } else if (w == "FIELD") {
-      (void)words.next();
-      for (std::size_t k = count(); k > 0; --k) {
-        PointData d;
-        d.name = words.next();
-        d.components = static_cast<int>(count());
-        const std::size_t n = count();
-        (void)words.next();
-        d.values = values(n * static_cast<std::size_t>(d.components));
-        if (at_points) cloud.data.push_back(std::move(d));
-      }
-    }
-  }
-  if (cloud.points.empty()) fail("no points");
-  for (const PointData& d : cloud.data) {
-    if (d.values.size() != cloud.size() * static_cast<std::size_t>(d.components))
-      fail("the array \"" + d.name + "\" has a wrong length");
-  }
-  return cloud;
-}
 
 std::string text_of(const std::filesystem::path& file) {
   io::ReadLimits limits;

@@ -27,8 +27,8 @@ struct PointCloud {
 /// Writes an unstructured grid of vertices. Replaces a file of that name when it is complete. Throws io::OutputError.
 void write_vtu(const std::filesystem::path& file, const PointCloud& cloud);
 
-/// Reads the points and point data of a .vtu file (ascii or raw appended, not compressed) or a legacy .vtk file
-/// (ascii). Throws io::InputError.
+/// Reads the points and point data of a .vtu file (ascii, base64 or raw, compressed by zlib or not) or a legacy .vtk
+/// file (ASCII or binary). Throws io::InputError.
 [[nodiscard]] PointCloud read_vtk(const std::filesystem::path& file);
 
 /// A series of files with their times, paths relative to the collection.
