@@ -107,7 +107,7 @@ class DescribedSurface {
       cells_.add(p.from.cwiseMin(p.to), p.from.cwiseMax(p.to), static_cast<int>(k));
     }
     for (std::size_t i = 0; i < run.particles.count; ++i) {
-      if (run.setup.arrangement.group[run.particles.id[i]] < 0) continue;
+      if (run.setup.arrangement.group[run.particles.id[i]] < 0 || run.piece[i] != 0) continue;
       covers_.push_back(start_of(run.particles, i));
       platens_.add(covers_.back(), covers_.back(), static_cast<int>(covers_.size()) - 1);
     }
@@ -292,7 +292,8 @@ std::vector<FreeDirections<Dim>> find_free_directions(const RunData<Dim>& run) {
   const DescribedSurface described(run, reach);
   for (std::size_t i = 0; i < all.size(); ++i) {
     described.look(start_of(run.particles, i), all[i]);
-    if (all[i].at_platen) all[i].count = 2;  // particles of a group among them: they are their own platen
+    if (run.piece[i] != 0) all[i].at_platen = true;  // its own surface is not described
+    if (all[i].at_platen) all[i].count = 2;          // particles of a group among them: they are their own platen
   }
   return all;
 }

@@ -134,7 +134,14 @@ std::vector<std::string> problems(const RunSetup<Dim>& s) {
   check_arrangement(s, m);
   check_cuts(s.arrangement, m);
   m.require((Dim == 3) == (s.setting == Setting::three_d), "setting: must be plane strain or plane stress in 2-D");
-  for (const Group<Dim>& g : s.groups) check_drives(g, m);
+  for (const Group<Dim>& g : s.groups) {
+    check_drives(g, m);
+    const Options<Dim>& o = s.options;
+    m.require(g.bonded || (o.configuration == Configuration::reference && o.contact_stiffness > 0.0),
+              "group " + g.name +
+                  ": one that is not bonded needs contact, which the configuration reference has, with a "
+                  "contact_stiffness above 0");
+  }
   for (const Load<Dim>& load : s.loads) check_load(load, s.arrangement, m);
   Parameters p = s.parameters;
   p.rve_length = 1e-6;  // the particles carry their own

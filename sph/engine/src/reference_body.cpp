@@ -21,6 +21,7 @@ ReferenceBody<Dim>::ReferenceBody(RunData<Dim>& run) : Body<Dim>(run) {
   this->lists_ = find_neighbours<Dim>(p.start, p.count, kernel_support * run.h);
   const Arrangement<Dim>& a = run.setup.arrangement;
   drop_without_share<Dim>(this->lists_, a.cuts, p.start, a.spacing);
+  keep_apart(this->lists_, run.piece);
   this->bonds_ = pack<Dim>(this->lists_, p.padded(), false);
   this->builds_ = 1;
   const Options<Dim>& o = run.setup.options;

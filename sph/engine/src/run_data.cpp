@@ -81,6 +81,7 @@ void RunData<Dim>::place_particles() {
     const double size = Dim == 2 ? std::sqrt(a.volume[k]) : std::cbrt(a.volume[k]);
     p.length[i] = o.rve_length.rule == RveLength::Rule::number ? o.rve_length.value : size;
     const int g = a.group[k];
+    piece.push_back(g >= 0 && !setup.groups[static_cast<std::size_t>(g)].bonded ? g + 1 : 0);
     p.kind[i] = g >= 0 && setup.groups[static_cast<std::size_t>(g)].elastic ? kind::elastic : kind::intact;
   }
 }

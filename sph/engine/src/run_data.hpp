@@ -33,6 +33,7 @@ struct RunData {
 
   Particles<Dim> particles;
   std::vector<std::size_t> slot_of;
+  std::vector<int> piece;   ///< per particle: 0 of the body and what is bonded to it; its group + 1 where that is loose
   Fields<Dim> damping;      ///< 1 where local damping acts, 0 where the component is driven
   Fields<Dim> outer_force;  ///< of boundaries that push and of closed faces at n, N
   Mask flagged;             ///< of the last pass: the library must update the particle

@@ -54,6 +54,7 @@ std::uint64_t fingerprint(const RunSetup<Dim>& s) {
       w(d.has_value());
       if (d) w(*d);
     }
+    w(g.bonded);
     w(g.hinge.has_value());
     if (g.hinge) w(*g.hinge);
   }

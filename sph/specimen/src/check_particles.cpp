@@ -147,6 +147,8 @@ void check_loneliness(Report& report, const std::vector<Surroundings>& all, doub
 void check_contact(Report& report, const Scene& scene, const Arrangement& a, const std::vector<Surroundings>& all,
                    double reach) {
   for (std::size_t b = 0; b < scene.boundaries.size(); ++b) {
+    const std::optional<Platen>& platen = scene.boundaries[b].platen;
+    if (platen && platen->friction) continue;  // it stands on the surface, without bonds
     bool is_there = false, touches = false;
     for (std::size_t i = 0; i < a.size(); ++i) {
       if (a.group[i] != static_cast<int>(b)) continue;

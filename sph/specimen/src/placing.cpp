@@ -204,20 +204,70 @@ std::vector<std::optional<Point>> platen_feet(const Shape& shape, const Platen& 
   return feet;
 }
 
+std::vector<PlatenColumn> platen_columns(const Shape& shape, const Platen& platen, double spacing) {
+  const Point d = platen.direction.normalized();
+  const Point t(d[1], -d[0]);
+  std::vector<PlatenColumn> columns;
+  double outermost = -1e300, middle = 0.0;
+  for (const std::optional<Point>& foot : platen_feet(shape, platen, spacing)) {
+    if (!foot) throw std::invalid_argument("one of the columns of the platen misses the body");
+    columns.push_back({*foot, *foot});
+    const double height = (*foot - platen.at).dot(d);
+    if (height > outermost + 1e-9 * spacing) outermost = height, middle = (*foot - platen.at).dot(t);
+  }
+  if (platen.fit == Platen::Fit::surface) return columns;
+  const bool symmetric = std::abs((columns.front().foot - columns.back().foot).dot(d)) < 1e-6 * spacing;
+  if (symmetric) middle = 0.0;
+  for (PlatenColumn& c : columns) {
+    double height = outermost;
+    if (platen.fit == Platen::Fit::jaw) {
+      const double aside = (c.foot - platen.at).dot(t) - middle, r = platen.jaw_radius;
+      if (std::abs(aside) >= r) throw std::invalid_argument("the platen is wider than its jaw");
+      height = std::max(outermost - (r - std::sqrt(r * r - aside * aside)), (c.foot - platen.at).dot(d));
+    }
+    c.face += (height - (c.foot - platen.at).dot(d)) * d;
+  }
+  return columns;
+}
+
+std::vector<sph::Cut<2>> contact_of(const Shape& shape, const Platen& platen, double spacing) {
+  constexpr double overlap = 0.1;  // of a column: no gap between the pieces of a bent contact
+  const Point d = platen.direction.normalized();
+  const Point t(d[1], -d[0]);
+  const double pitch = columns_of(platen, spacing).second;
+  const std::vector<PlatenColumn> columns = platen_columns(shape, platen, spacing);
+  const auto cut = [&](const Point& from, const Point& to, double gap) {
+    sph::Cut<2> c;
+    c.corner = {from, to};
+    c.width = c.gap = gap;
+    c.friction = *platen.friction;
+    return c;
+  };
+  const Point first = columns.front().face, last = columns.back().face;
+  const Point along = columns.size() > 1 ? Point((last - first).normalized()) : t;
+  const bool straight = std::all_of(columns.begin(), columns.end(), [&](const PlatenColumn& c) {
+    const Point x = c.face - first;
+    return std::abs(x[0] * along[1] - x[1] * along[0]) < 1e-6 * spacing && (c.face - c.foot).norm() < 1e-6 * spacing;
+  });
+  const double half = 0.5 * pitch / std::max(0.1, std::abs(along.dot(t)));
+  if (straight) return {cut(first - half * along, last + half * along, 0.0)};
+  std::vector<sph::Cut<2>> cuts;
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    const Point chord = columns[std::min(k + 1, columns.size() - 1)].face - columns[k > 0 ? k - 1 : 0].face;
+    const Point side = (0.5 + overlap) * pitch / std::max(0.1, chord.normalized().dot(t)) * chord.normalized();
+    const double gap = (columns[k].face - columns[k].foot).norm() * std::abs(chord.normalized().dot(t));
+    const Point middle = 0.5 * (columns[k].face + columns[k].foot);
+    cuts.push_back(cut(middle - side, middle + side, gap < 1e-6 * spacing ? 0.0 : gap));
+  }
+  return cuts;
+}
+
 void place_platen(sph::Arrangement<2>& a, const Shape& shape, const Platen& platen, int group) {
   const Point d = platen.direction.normalized();
   const double pitch = columns_of(platen, a.spacing).second;
-  std::vector<Point> feet;
-  double outermost = -1e300;
-  for (const std::optional<Point>& foot : platen_feet(shape, platen, a.spacing)) {
-    if (!foot) throw std::invalid_argument("one of the columns of the platen misses the body");
-    feet.push_back(*foot);
-    outermost = std::max(outermost, (*foot - platen.at).dot(d));
-  }
-  for (Point& foot : feet) {
-    if (platen.fit == Platen::Fit::flat) foot += (outermost - (foot - platen.at).dot(d)) * d;
+  for (const PlatenColumn& column : platen_columns(shape, platen, a.spacing)) {
     for (int layer = 0; layer < platen.layers; ++layer) {
-      a.add(foot + (layer + 0.5) * a.spacing * d, pitch * a.spacing, group);
+      a.add(column.face + (layer + 0.5) * a.spacing * d, pitch * a.spacing, group);
     }
   }
 }

@@ -4,9 +4,9 @@
 namespace fpz::specimen::detail {
 namespace {
 
-constexpr std::array<std::string_view, 12> boundary_keys = {
-    "name",    "at",    "direction", "width",        "layers", "fit",
-    "elastic", "hinge", "velocity",  "displacement", "force",  "machine_stiffness"};
+constexpr std::array<std::string_view, 14> boundary_keys = {
+    "name",     "at",      "direction", "width",    "layers",       "fit",   "jaw_radius",
+    "friction", "elastic", "hinge",     "velocity", "displacement", "force", "machine_stiffness"};
 
 /// true, or the point about which the boundary turns.
 void read_hinge(const InputReader& r, const Place& p, Boundary& b) {
@@ -39,7 +39,17 @@ Boundary read_boundary(const InputReader& r, const Place& place, std::span<const
     with_required(r, place, "width", [&](const Place& p) { platen.width = not_negative(r, p).value_or(0.0); });
     with(place, "layers", [&](const Place& p) { platen.layers = r.integer(p, 1, 100).value_or(3); });
     with(place, "fit", [&](const Place& p) { platen.fit = choice<Platen::Fit>(r, p).value_or(platen.fit); });
+    with(place, "jaw_radius", [&](const Place& p) { platen.jaw_radius = r.positive(p).value_or(1.0); });
+    if ((platen.fit == Platen::Fit::jaw) != (platen.jaw_radius > 0.0)) {
+      r.problem(place, "\"fit\": \"jaw\" and \"jaw_radius\" belong together");
+    }
+    with(place, "friction", [&](const Place& p) { platen.friction = not_negative(r, p); });
     b.platen = platen;
+  }
+  if (!b.platen) {
+    with(place, "friction", [&](const Place& p) {
+      r.problem(p, "needs \"at\", \"direction\" and \"width\": particles of a file have no surface that touches");
+    });
   }
   with(place, "hinge", [&](const Place& p) { read_hinge(r, p, b); });
   with(place, "elastic", [&](const Place& p) { b.elastic = boolean(r, p).value_or(true); });

@@ -152,6 +152,12 @@ Specimen make_specimen(const Scene& scene) {
       if (b.drive[c]) group.drive[c] = b.drive[c]->starting(0.0, 0.0, 0.0, scene.thickness);
     }
     group.elastic = b.elastic;
+    if (b.platen && b.platen->friction) {
+      group.bonded = false;
+      for (const sph::Cut<2>& cut : contact_of(scene.body.shape, *b.platen, scene.spacing)) {
+        s.setup.arrangement.cuts.push_back(cut);
+      }
+    }
     if (b.hinged) group.hinge = b.hinge ? *b.hinge : middle_of_foot(scene, *b.platen);
     s.setup.groups.push_back(group);
   }

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "fpz/io/input_error.hpp"
 #include "fpz/specimen/run.hpp"
@@ -190,6 +191,20 @@ TEST(LoadingRun, WhatIsWrongWithAStageIsNamed) {
     "hinge": [0, "x"], "velocity": {"y": 0}}], "gauges": {}, "stop": {"time": 1})"))
                 .find("boundaries[0].hinge"),
             std::string::npos);
+  const auto platen = [](const std::string& what, const char* method) {
+    return complaint(plate(R"("boundaries": [{"name": "base", "at": [0, -0.01], "direction": [0, -1], "width": 0.02,
+      "velocity": {"y": 0}}, {"name": "top", "at": [0, 0.01], "direction": [0, 1], "width": 0.02,
+      "velocity": {"y": -0.1}, )" +
+                           what + R"(}], "gauges": {"load": {"force_on": "top", "direction": [0, -1]},
+      "deflection": {"displacement_of": "top", "direction": [0, -1]}}, "stop": {"time": 1e-4}, "method": )" +
+                           method));
+  };
+  EXPECT_EQ(platen(R"("friction": 0.3)", "{\"damping\": 0}"), "");
+  EXPECT_NE(platen(R"("friction": 0.3)", R"({"configuration": "updated"})").find("group top: one that is not bonded"),
+            std::string::npos);
+  EXPECT_NE(platen(R"("friction": -1)", "{\"damping\": 0}").find("boundaries[1].friction: -1: must be >= 0"),
+            std::string::npos);
+  EXPECT_NE(platen(R"("fit": "jaw")", "{\"damping\": 0}").find("\"jaw_radius\" belong together"), std::string::npos);
   EXPECT_NE(stage(R"("damping": 2)").find("stages[1].damping"), std::string::npos);
   EXPECT_NE(stage(R"("boundaries": {"top": {"velocity": {"y": {"servo": "cmod", "rate": 1, "speed": 1}}}})")
                 .find("unknown choice \"cmod\""),
@@ -321,6 +336,96 @@ TEST(LoadingRun, HingedRollersDoNotHinderABeam) {
   const double hinged = stiffness(R"("hinge": true, )", "hinged"), bonded = stiffness("", "bonded");
   EXPECT_NEAR(hinged, exact, 0.05 * exact);  // ten rows
   EXPECT_GT(bonded, 1.2 * hinged);
+}
+
+/// Between platens without friction a plate has one stress everywhere, and the stiffness of a bar.
+TEST(LoadingRun, PlatensWithoutFrictionPressEvenly) {
+  const auto pressed = [&](const char* friction, const std::string& name) {
+    const std::string platen = std::string(R"("width": 0.02, )") + friction;
+    const RunResult r = run(plate(R"("boundaries": [
+        {"name": "base", "at": [0, -0.03], "direction": [0, -1], )" +
+                                      platen + R"("velocity": {"x": 0, "y": 0}},
+        {"name": "top", "at": [0, 0.03], "direction": [0, 1], )" +
+                                      platen + R"("velocity": {"x": 0},
+         "displacement": {"y": {"value": -30e-6, "ramp": 1e-3}}}],
+      "gauges": {"load": {"force_on": "top", "direction": [0, -1]}, "support": {"force_on": "base", "direction": [0, 1]},
+        "deflection": {"displacement_of": "top", "relative_to": "base", "direction": [0, -1]},
+        "edge_xx": {"stress": "xx", "of": {"point": [0, 0.028], "radius": 0.002}},
+        "edge_yy": {"stress": "yy", "of": {"low": [-0.01, 0.024], "high": [0.01, 0.03]}}},
+      "method": {"damping": 0.3}, "stop": {"time": 2e-3},
+      "output": {"frames": 0, "pictures": false, "history_rows": 100})",
+                                  upright),
+                            name);
+    EXPECT_EQ(r.ending, Ending::finished) << r.reason;
+    EXPECT_LT(std::abs(r.history.last("energy_error")), 2e-3 * r.history.last("energy_external"));
+    return r.history;
+  };
+  const History free = pressed(R"("friction": 0, )", "frictionless"), bonded = pressed("", "bonded_platens");
+  const double stress = 50e9 / (1.0 - 0.0625) * 30e-6 / 0.06;
+  EXPECT_NEAR(free.last("load"), stress * 0.02 * 0.05, 0.02 * stress * 0.02 * 0.05);
+  EXPECT_NEAR(free.last("edge_yy"), -stress, 0.02 * stress);
+  EXPECT_NEAR(free.last("edge_xx"), 0.0, 0.01 * stress);
+  EXPECT_LT(bonded.last("edge_xx"), -0.1 * stress);
+}
+
+/// A disc between platens that it touches in one place at first: flat ones, and hollow jaws with 1.5 times its radius.
+/// Its centre has the stresses of the closed form for line loads, and the contact of the jaws is wider.
+TEST(LoadingRun, FlatPlatensAndJawsPressADisc) {
+  const auto centre = [&](const std::string& fit) {
+    const std::string platen = R"("width": 0.024, "friction": 0.2, )" + fit;
+    const RunResult r = run(plate(R"("boundaries": [
+        {"name": "base", "at": [0, -0.025], "direction": [0, -1], )" +
+                                      platen + R"("velocity": {"x": 0, "y": 0}},
+        {"name": "top", "at": [0, 0.025], "direction": [0, 1], )" +
+                                      platen + R"("velocity": {"x": 0},
+         "displacement": {"y": {"value": -100e-6, "ramp": 2e-3}}}],
+      "gauges": {"load": {"force_on": "top", "direction": [0, -1]}, "support": {"force_on": "base", "direction": [0, 1]},
+        "deflection": {"displacement_of": "top", "relative_to": "base", "direction": [0, -1]},
+        "sxx": {"stress": "xx", "of": {"point": [0, 0], "radius": 0.002}},
+        "syy": {"stress": "yy", "of": {"point": [0, 0], "radius": 0.002}},
+        "aside": {"stress": "yy", "of": {"point": [0.008, 0.022], "radius": 0.002}}},
+      "method": {"damping": 0.3}, "stop": {"time": 3e-3},
+      "output": {"frames": 0, "pictures": false, "history_rows": 100})",
+                                  R"({"type": "disc", "radius": 0.025})"),
+                            "disc");
+    EXPECT_EQ(r.ending, Ending::finished) << r.reason;
+    EXPECT_LT(std::abs(r.history.last("energy_error")), 5e-3 * r.history.last("energy_external"));
+    const double unit = 2.0 * r.history.last("load") / (std::numbers::pi * 0.05 * 0.05);
+    return std::array<double, 4>{r.history.last("sxx") / unit, r.history.last("syy") / unit,
+                                 r.history.last("aside") / unit, r.history.last("load")};
+  };
+  const auto flat = centre(R"("fit": "flat", )"), jaw = centre(R"("fit": "jaw", "jaw_radius": 0.0375, )");
+  for (const auto& c : {flat, jaw}) {
+    EXPECT_NEAR(c[0], 1.0, 0.05);
+    EXPECT_NEAR(c[1], -3.0, 0.1);
+  }
+  EXPECT_GT(jaw[3], flat[3]);
+}
+
+/// A block under pressure on a base that is drawn away: it is held by friction times the normal force, and no more.
+TEST(LoadingRun, APlatenSlidesAtFrictionTimesTheNormalForce) {
+  for (const double friction : {0.2, 0.5}) {
+    const RunResult r = run(plate(R"("boundaries": [
+        {"name": "base", "at": [0, -0.01], "direction": [0, -1], "width": 0.04, "friction": )" +
+                                  std::to_string(friction) + R"(, "velocity": {"y": 0},
+         "displacement": {"x": {"table": [[0, 0], [1e-3, 0], [2e-3, 20e-6]], "smooth": true}}},
+        {"name": "stop", "at": [0.02, 0], "direction": [1, 0], "width": 0.016, "velocity": {"x": 0}}],
+      "loads": [{"name": "weight", "on": {"low": [-0.02, 0.01], "high": [0.02, 0.01]},
+                 "pressure": {"value": 5e6, "ramp": 1e-3}}],
+      "gauges": {"load": {"force_on": "stop", "direction": [-1, 0]}, "support": {"force_on": "base", "direction": [1, 0]},
+        "normal": {"force_on": "base", "direction": [0, 1]},
+        "deflection": {"displacement_of": "base", "direction": [1, 0]}},
+      "method": {"damping": 0.3}, "stop": {"time": 2.5e-3},
+      "output": {"frames": 0, "pictures": false, "history_rows": 200})"),
+                            "sliding");
+    ASSERT_EQ(r.ending, Ending::finished) << r.reason;
+    const History& h = r.history;
+    EXPECT_NEAR(h.last("normal"), 5e6 * 0.04 * 0.05, 0.01 * 1e4);
+    EXPECT_NEAR(h.last("load"), friction * h.last("normal"), 0.02 * friction * h.last("normal"));
+    EXPECT_NEAR(h.last("support"), h.last("load"), 0.02 * h.last("load"));
+    EXPECT_GT(h.last("energy_friction"), 0.5 * friction * 1e4 * 10e-6);
+    EXPECT_LT(std::abs(h.last("energy_error")), 5e-3 * h.last("energy_external"));
+  }
 }
 
 TEST(LoadingRun, WhatIsWrongWithALoadIsNamed) {

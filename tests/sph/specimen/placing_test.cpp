@@ -378,4 +378,35 @@ TEST(Placing, PlatensLieOnTheSurface) {
   EXPECT_THROW(place_platen(a, disc, {Point(0, 1), Point(0, 1), 4.0, 3}, 0), std::invalid_argument);
 }
 
+/// Columns of a flat platen begin on a line, those of a jaw on its arc, both touching the disc in its highest place.
+TEST(Placing, JawsAreArcs) {
+  const Shape disc = Disc{Point(0, 0), 0.025};
+  Platen platen;
+  platen.at = Point(0, 0.025), platen.direction = Point(0, 1), platen.width = 0.02;
+  const double spacing = 0.001;
+  const auto touch = platen_columns(disc, platen, spacing);
+  ASSERT_EQ(touch.size(), 20u);
+  for (const PlatenColumn& c : touch) EXPECT_EQ(c.face, c.foot);
+  const double highest = std::sqrt(0.025 * 0.025 - 0.0005 * 0.0005);
+  platen.fit = Platen::Fit::flat;
+  for (const PlatenColumn& c : platen_columns(disc, platen, spacing)) EXPECT_NEAR(c.face[1], highest, 1e-9);
+  platen.fit = Platen::Fit::jaw, platen.jaw_radius = 0.0375;
+  for (const PlatenColumn& c : platen_columns(disc, platen, spacing)) {
+    const double arc = highest - 0.0375 + std::sqrt(0.0375 * 0.0375 - c.face[0] * c.face[0]);
+    EXPECT_NEAR(c.face[1], std::max(arc, c.foot[1]), 1e-9);
+    EXPECT_GE(c.face[1], c.foot[1]);
+  }
+  // Faces that meet: one cut on a straight surface, one for each column elsewhere, as wide as their gap.
+  platen.friction = 0.3;
+  const auto bent = contact_of(disc, platen, spacing);
+  ASSERT_EQ(bent.size(), 20u);
+  EXPECT_GT(bent.front().gap, 3.0 * bent[8].gap);
+  const Shape block = Rectangle{Point(-0.02, 0), Point(0.02, 0.025)};
+  platen.fit = Platen::Fit::surface, platen.jaw_radius = 0.0;
+  const auto straight = contact_of(block, platen, spacing);
+  ASSERT_EQ(straight.size(), 1u);
+  EXPECT_NEAR((straight[0].corner[1] - straight[0].corner[0]).norm(), 0.02, 1e-9);
+  EXPECT_EQ(straight[0].friction, 0.3);
+}
+
 }  // namespace

@@ -54,6 +54,9 @@ struct Group {
   bool elastic = true;                                                    ///< its particles never crack
   /// A point about which the group turns freely as a rigid body, m; the drives are those of this point.
   std::optional<Vec<double, Dim>> hinge = std::nullopt;
+  /// Its particles have bonds with the body. Else it touches the body where a cut lies between them
+  /// (Arrangement::cuts), by contact, in `reference`.
+  bool bonded = true;
 };
 
 /// Forces that particles of the body feel, in a fixed pattern times a number that changes.

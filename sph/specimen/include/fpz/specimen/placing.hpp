@@ -44,13 +44,29 @@ struct Platen {
   int layers = 3;
   enum class Fit : std::uint8_t {
     surface,  ///< every column begins on the surface
-    flat      ///< all begin where the outermost does
+    flat,     ///< all begin where the outermost does
+    jaw       ///< on a hollow arc of `jaw_radius` that touches the outermost
   };
   Fit fit = Fit::surface;
+  double jaw_radius = 0.0;  ///< m
+  /// Coefficient of Coulomb friction on the surface; none: the platen is bonded to it.
+  std::optional<double> friction = std::nullopt;
 };
 
 /// Where the columns of a platen meet the surface of the shape from outside; nothing for one that misses it.
 [[nodiscard]] std::vector<std::optional<Point>> platen_feet(const Shape& shape, const Platen& platen, double spacing);
+
+/// A column of a platen: where it begins, and what of the surface is under it.
+struct PlatenColumn {
+  Point face = Point::Zero(), foot = Point::Zero();
+};
+/// Of the columns from left to right seen along -direction. Throws std::invalid_argument when one misses the body, or
+/// is beyond the jaw.
+[[nodiscard]] std::vector<PlatenColumn> platen_columns(const Shape& shape, const Platen& platen, double spacing);
+
+/// The cuts on which the faces of a platen with friction and of the body meet: one for a platen that lies on a straight
+/// surface, else one for each column.
+[[nodiscard]] std::vector<sph::Cut<2>> contact_of(const Shape& shape, const Platen& platen, double spacing);
 
 /// Adds the particles of a platen as group `group`. Throws std::invalid_argument when a column misses the body.
 void place_platen(sph::Arrangement<2>& arrangement, const Shape& shape, const Platen& platen, int group);
@@ -62,7 +78,8 @@ namespace fpz {
 template <>
 struct Words<specimen::Platen::Fit> {
   static constexpr Word<specimen::Platen::Fit> list[] = {{specimen::Platen::Fit::surface, "surface"},
-                                                         {specimen::Platen::Fit::flat, "flat"}};
+                                                         {specimen::Platen::Fit::flat, "flat"},
+                                                         {specimen::Platen::Fit::jaw, "jaw"}};
 };
 
 }  // namespace fpz
