@@ -251,6 +251,34 @@ TEST(PathFile, DoubtfulValuesWarnWithTheirPlace) {
   EXPECT_NE(t.warnings[0].find("x.json:2: rve_length = 0.02: should be < "), std::string::npos) << t.warnings[0];
 }
 
+/// A number that is far off and would be usual in another unit is refused; others are doubtful only.
+TEST(PathFile, ValuesInOtherUnitsAreNamed) {
+  const auto said = [](const std::string& key, const std::string& value) {
+    try {
+      const PathTest t = parse_path_file(with_material_value(key, value), origin).tests.at(0);
+      std::string all;
+      for (const std::string& w : t.warnings) all += "warning: " + w + "\n";
+      return all;
+    } catch (const InputError& e) {
+      return std::string(e.what());
+    }
+  };
+  const std::array<std::array<const char*, 3>, 5> slips = {
+      {{"young_modulus", "45", "material.young_modulus = 45 Pa is far below any"},
+       {"tensile_strength", "0.6", "0.6 MPa was probably meant: write 6e+05"},
+       {"delta0", "18", "18 um was probably meant: write 1.8e-05"},
+       {"density", "1.54", "1.54 g/cm3 was probably meant: write 1540"},
+       {"friction_angle_deg", "0.576", "0.576 rad was probably meant: write 33"}}};
+  for (const auto& [key, value, expected] : slips) {
+    const std::string text = said(key, value);
+    EXPECT_NE(text.find("x.json:"), std::string::npos) << text;
+    EXPECT_NE(text.find(std::string("material.") + key + " = " + value), std::string::npos) << text;
+    EXPECT_NE(text.find(expected), std::string::npos) << text;
+    EXPECT_NE(text.find("warning: "), 0u) << text;
+  }
+  EXPECT_NE(said("young_modulus", "2e11").find("warning: "), std::string::npos);
+}
+
 TEST(PathFile, MaterialMayCarryKeysForOtherPrograms) {
   const std::string text = with_material_value(
       "shear_stiffness",

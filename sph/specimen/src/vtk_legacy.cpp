@@ -79,7 +79,8 @@ class LegacyReader {
       }
       return all;
     }
-    const auto known = std::find_if(number_types.begin(), number_types.end(), [&](const NumberType& t) { return t.word == type; });
+    const auto known =
+        std::find_if(number_types.begin(), number_types.end(), [&](const NumberType& t) { return t.word == type; });
     if (known == number_types.end()) fail("binary numbers of type \"" + std::string(type) + "\" are not supported");
     (void)words_.line();
     const std::string_view bytes = words_.bytes(n * known->size);

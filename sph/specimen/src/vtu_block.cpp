@@ -67,7 +67,8 @@ class Bytes {
       padding += v < 0 ? 1 : 0;
       ++characters;
     }
-    for (int k = 0; k < 3 - padding; ++k) ready_ += static_cast<char>((bits >> (16U - 8U * static_cast<unsigned>(k))) & 255U);
+    for (int k = 0; k < 3 - padding; ++k)
+      ready_ += static_cast<char>((bits >> (16U - 8U * static_cast<unsigned>(k))) & 255U);
   }
 
   std::string_view text_;
