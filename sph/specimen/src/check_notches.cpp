@@ -76,6 +76,37 @@ void check_length(const SceneCheck& c, const Place& p, const NotchLine& line) {
   });
 }
 
+/// The closed line of the surface of shape and holes that is nearest to a point, by its number.
+std::size_t line_of(const Body& body, const Point& x) {
+  const auto lines = outlines(without_notches(body));
+  std::size_t nearest = 0;
+  double least = 1e300;
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    const double distance = distance_to(lines[k], x);
+    if (distance < least) least = distance, nearest = k;
+  }
+  return nearest;
+}
+
+/// A notch from one place of a surface to another of the same leaves two pieces. With a friction angle of its own it is
+/// meant as a joint.
+void check_division(const SceneCheck& c, const Place& p, const NotchLine& line) {
+  const Scene& s = c.scene;
+  const bool from_surface =
+      line.parts.front().first > 0.0 || depth(s.body, line.notch.mouth) < at_the_surface * s.spacing;
+  const bool to_surface = depth(s.body, line.notch.tip) < at_the_surface * s.spacing;
+  const bool joint = line.notch.width <= 0.0 && p.value().find("friction_angle_deg") != nullptr;
+  if (!from_surface || !to_surface || joint || line.parts.size() > 1) return;
+  if (line_of(s.body, line.notch.mouth) != line_of(s.body, line.notch.tip)) return;
+  with(p, "length", [&](const Place& at) {
+    c.warn(at,
+           line.notch.width > 0.0
+               ? "the slot goes from surface to surface and divides the body: nothing holds its parts together"
+               : "the cut goes from surface to surface and divides the body: only contact holds its parts together; "
+                 "if a joint is meant, give it a \"friction_angle_deg\"");
+  });
+}
+
 void check_width(const SceneCheck& c, const Place& p, const Notch& notch) {
   const auto [low, high] = extent(c.scene.body.shape);
   const double widest = (high - low).minCoeff();
@@ -114,6 +145,7 @@ void check_notch(const SceneCheck& c, const Place& p, std::size_t k) {
   check_length(c, p, line);
   check_width(c, p, n);
   check_tip(c, p, line);
+  check_division(c, p, line);
 }
 
 }  // namespace

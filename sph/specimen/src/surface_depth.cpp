@@ -17,6 +17,14 @@ void for_pieces(const Body& body, F&& f) {
   }
 }
 
+/// The point of the straight piece from p to q that is nearest to x.
+Point foot_on(const Point& p, const Point& q, const Point& x) {
+  const Point d = q - p;
+  const double square = d.squaredNorm();
+  const double along = square > 0.0 ? std::clamp((x - p).dot(d) / square, 0.0, 1.0) : 0.0;
+  return p + along * d;
+}
+
 }  // namespace
 
 Body without_notches(const Body& body) { return {body.shape, body.holes, {}}; }
@@ -25,14 +33,19 @@ Point nearest_on_surface(const Body& body, const Point& x) {
   Point nearest = x;
   double least = std::numeric_limits<double>::infinity();
   for_pieces(body, [&](const Point& p, const Point& q) {
-    const Point d = q - p;
-    const double square = d.squaredNorm();
-    const double along = square > 0.0 ? std::clamp((x - p).dot(d) / square, 0.0, 1.0) : 0.0;
-    const Point foot = p + along * d;
+    const Point foot = foot_on(p, q, x);
     const double distance = (x - foot).norm();
     if (distance < least) least = distance, nearest = foot;
   });
   return nearest;
+}
+
+double distance_to(const std::vector<Point>& line, const Point& x) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k + 1 < line.size(); ++k) {
+    least = std::min(least, (x - foot_on(line[k], line[k + 1], x)).norm());
+  }
+  return least;
 }
 
 double depth(const Body& body, const Point& x) {

@@ -14,6 +14,9 @@ namespace fpz::specimen::detail {
 /// The point of the surface of shape and holes that is nearest to x. Round lines are good to 2e-4 of their radius.
 [[nodiscard]] Point nearest_on_surface(const Body& body, const Point& x);
 
+/// Distance of x from a line of straight pieces, m.
+[[nodiscard]] double distance_to(const std::vector<Point>& line, const Point& x);
+
 /// Distance from that point, m: positive in the body, negative outside. Notches are not looked at.
 [[nodiscard]] double depth(const Body& body, const Point& x);
 

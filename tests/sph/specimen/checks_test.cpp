@@ -103,12 +103,31 @@ TEST(Checks, Notches) {
        beam,
        {R"(holes=[{"type":"disc","centre":[0,0.03],"radius":0.01}])", "notches[0].length=0.045"},
        {"notches[0].length: 0.045: the notch runs through a hole", "from [0, 0.02] to [0, 0.04]"}},
+      {warned,
+       beam,
+       {"notches[0].length=0.08", "notches[0].width=0", "notches[0].mouth=[0.05,0]"},
+       {"notches[0].length: 0.08: the cut goes from surface to surface and divides the body", "friction_angle_deg"}},
+      {warned,
+       "dogbone.json",
+       {R"(notches=[{"mouth":[-0.02,0],"length":0.041,"angle_deg":-90,"width":0.004}])"},
+       {"notches[0].length: 0.041: the slot goes from surface to surface and divides the body"}},
       {refused,
        beam,
        {"notches[0].mouth=[0,0.02]"},
        {"gauges.cmod.notch_opening: 0: the mouth of notches[0] is 0.02 m inside the body", "nothing opens",
         R"("displacement_of": {"point": [-0.0068, 0.024]})"}},
   });
+}
+
+/// A cut with a friction angle of its own is a joint, and one into a hole divides nothing.
+TEST(Checks, NotchesThatMayDivide) {
+  const Overrides stiff = {"material.shear_stiffness=1e14", "notches[0].width=0", "notches[0].length=0.08",
+                           "notches[0].mouth=[0.05,0]", "notches[0].friction_angle_deg=30"};
+  EXPECT_EQ(said(scenes / beam, stiff), "");
+  const std::string ring =
+      said(scenes / "ring.json",
+           {R"(notches=[{"mouth":[-0.025,0],"length":0.0175,"angle_deg":-90}])", "material.shear_stiffness=1e14"});
+  EXPECT_EQ(ring.find("divides"), std::string::npos) << ring;
 }
 
 TEST(Checks, Holes) {
