@@ -36,8 +36,9 @@ TEST(Beam, CoarseAgreesWithFiniteElements) {
   constexpr double reference_peak = 2591.5;      // N
   constexpr double reference_stiffness = 174.4;  // N/um, load over mid-depth deflection
   const double dx = 4e-3;
-  Simulation<2> run(beam(dx, 0.02));
-  const std::vector<Vector>& start = beam(dx, 0.02).arrangement.position;
+  const RunSetup<2> setup = beam(dx, 0.018);
+  Simulation<2> run(setup);
+  const std::vector<Vector>& start = setup.arrangement.position;
   std::size_t middle = 0;
   for (std::size_t i = 0; i < start.size(); ++i) {
     if ((start[i] - vec(0.0, 0.04)).norm() < (start[middle] - vec(0.0, 0.04)).norm()) middle = i;

@@ -1,0 +1,83 @@
+// The bonds of the undeformed body, a row for each particle: their vectors, and the correction with which the row's
+// gradient is exact for linear fields. Rows are written at the start and again where bonds were cut or rows narrowed.
+#pragma once
+
+#include <optional>
+
+#include "bond_vectors.hpp"
+#include "bonds.hpp"
+#include "plane.hpp"
+#include "run_data.hpp"
+
+namespace fpz::sph::detail {
+
+template <int Dim>
+class BondRows {
+ public:
+  /// Packs the lists into the bonds and writes all rows; run, lists and bonds must outlive this.
+  BondRows(RunData<Dim>& run, NeighbourLists& lists, Bonds<Dim>& bonds);
+
+  /// Weights and correction of a row from its list.
+  void write(std::size_t i);
+  void write_all();
+
+  [[nodiscard]] const std::vector<int>& neighbours(std::size_t i) const { return lists_[i]; }
+  /// Drops the bond on both sides; the rows of both are to be written.
+  void cut(std::size_t i, int j);
+
+  /// Whether a bond is short across the crack of i, where that row is narrowed; true elsewhere.
+  [[nodiscard]] bool is_near(std::size_t i, std::size_t j) const;
+  /// Leaves a cracked particle the bonds that are short across its crack, if its own gradient and its neighbours' can
+  /// do without the others; says whether it did, once. The rows of all of them are to be written.
+  bool narrow(std::size_t i);
+
+  /// Sum of a vector from i to its neighbours (x) the bond's vector, over the volume: the gradient before L_i.
+  template <class Difference>
+  [[nodiscard]] Full sum(std::size_t i, Difference&& difference) const {
+    Full s = {0.0, 0.0, 0.0, 0.0};
+    const double inverse = 1.0 / run_.particles.volume[i];
+    for (std::size_t k = 0; k < lists_[i].size(); ++k) {
+      const std::size_t entry = bonds_.entry(i, k);
+      add_product(s, inverse * difference(static_cast<std::size_t>(lists_[i][k])),
+                  Vec<double, Dim>(bonds_.weight[0][entry], bonds_.weight[1][entry]));
+    }
+    return s;
+  }
+  /// L_i of eq 18.
+  [[nodiscard]] Full correction(std::size_t i) const;
+  /// The gradient of a crack that the neighbours of a particle see along it, over that across it: derivatives along
+  /// the crack are then taken in the direction t - lean n. Sets L_i.
+  void set_lean(std::size_t i, double lean);
+
+  /// Leans and narrowed rows; after reading, all rows are to be written.
+  template <class Archive, class Self>
+  static void transfer(Archive& archive, Self& self) {
+    archive(self.leans_);
+    archive(self.width_);
+  }
+
+ private:
+  static void add_product(Full& sum, const Vec<double, Dim>& a, const Vec<double, Dim>& b) {
+    sum.xx += a[0] * b[0];
+    sum.xy += a[0] * b[1];
+    sum.yx += a[1] * b[0];
+    sum.yy += a[1] * b[1];
+  }
+  [[nodiscard]] Vec<double, Dim> between(std::size_t i, std::size_t j) const;
+  /// V_i V_j grad W_ij of the undeformed body, or what takes its place; none for bonds that are not near.
+  [[nodiscard]] Vec<double, Dim> vector_of(std::size_t i, int j) const;
+  /// Smaller singular value of the moment that the row would have.
+  [[nodiscard]] double least_moment(std::size_t i) const;
+  [[nodiscard]] Full moment(std::size_t i) const;
+  void set_correction(std::size_t i, const Full& c);
+
+  RunData<Dim>& run_;
+  NeighbourLists& lists_;
+  Bonds<Dim>& bonds_;
+  std::optional<BondVectors<Dim>> vectors_;  ///< none: those of the kernel
+  Field leans_;
+  enum class Width : char { whole, narrow, refused };
+  std::vector<Width> width_;
+};
+
+}  // namespace fpz::sph::detail

@@ -1,0 +1,143 @@
+#include "crack_rows.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "crack_bands.hpp"
+
+namespace fpz::sph::detail {
+
+namespace {
+constexpr double grown = 0.995;      // integrity over that of the last time, below which a row is straightened again
+constexpr double most_lean = 0.6;    // 0.53 at a straight surface of a lattice
+constexpr double narrow_from = 0.02; // damage
+}  // namespace
+
+template <int Dim>
+void CrackRows<Dim>::write(std::vector<std::size_t>& changed) {
+  std::sort(changed.begin(), changed.end());
+  changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
+  for (const std::size_t i : changed) rows_.write(i);
+}
+
+/// Beyond the first row, a particle whose neighbours reach across a crack would have to hold its opening: by moving
+/// the first row past the crack's face, with stresses up to the strength, which bridge the crack and tear it open
+/// beside where it is.
+template <int Dim>
+void CrackRows<Dim>::narrow() {
+  const Particles<Dim>& p = run_.particles;
+  std::vector<std::size_t> changed;
+  for (std::size_t i = 0; i < p.count; ++i) {
+    if (p.kind[i] != kind::cracked || damage(p.point[i].crack) < narrow_from || !rows_.narrow(i)) continue;
+    changed.push_back(i);
+    for (const int j : rows_.neighbours(i)) changed.push_back(static_cast<std::size_t>(j));
+  }
+  write(changed);
+}
+
+/// Mean angle, rad, by which the uncracked neighbours on the row's own side of the crack have turned.
+template <int Dim>
+double CrackRows<Dim>::rotation_beside(std::size_t i) const {
+  const Particles<Dim>& p = run_.particles;
+  double sum = 0.0, count = 0.0;
+  for (const int neighbour : rows_.neighbours(i)) {
+    const auto j = static_cast<std::size_t>(neighbour);
+    if (p.kind[j] == kind::cracked || !rows_.is_near(i, j)) continue;
+    sum += p.rotation[1][j];
+    count += 1.0;
+  }
+  return count > 0.0 ? sum / count : 0.0;
+}
+
+/// A jump d gives a row the gradient d (x) g, g being the sum of the bonds' vectors beyond the crack: the direction of
+/// g is that in which the gradient, less the elastic one and the rotation beside the crack, is largest. It counts as
+/// far as one direction stands out and the gradient is more than the rock bears elastically.
+template <int Dim>
+double CrackRows<Dim>::lean_of(std::size_t i) const {
+  const RunData<Dim>& run = run_;
+  const Particles<Dim>& p = run.particles;
+  const Full raw = rows_.sum(i, [&](std::size_t j) {
+    return Vec<double, Dim>((p.position[0][j] - p.position[0][i]) - (p.start[0][j] - p.start[0][i]),
+                            (p.position[1][j] - p.position[1][i]) - (p.start[1][j] - p.start[1][i]));
+  });
+  const Tensor<double, Dim> elastic = elastic_strain<Dim>(run.material.bulk, p.stress_of(i));
+  Full g = product(raw, rows_.correction(i));
+  const double turn = rotation_beside(i);
+  g = {g.xx - elastic[0], g.xy - elastic[2] + turn, g.yx - elastic[2] - turn, g.yy - elastic[1]};
+  const Symmetric square = {g.xx * g.xx + g.yx * g.yx, g.xy * g.xy + g.yy * g.yy, g.xx * g.xy + g.yx * g.yy};
+  const double mean = 0.5 * (square.xx + square.yy), half = 0.5 * (square.xx - square.yy);
+  const double radius = std::hypot(half, square.xy);
+  const double largest = std::sqrt(mean + radius), other = std::sqrt(std::max(0.0, mean - radius));
+  const double borne =
+      std::max(run.setup.parameters.tensile_strength / run.setup.parameters.young_modulus,
+               std::sqrt(elastic[0] * elastic[0] + elastic[1] * elastic[1] + 2.0 * elastic[2] * elastic[2]));
+  if (!(largest > borne) || !(largest > 2.0 * other)) return 0.0;
+  const double angle = 0.5 * std::atan2(square.xy, half);
+  const Vec<double, Dim> direction = p.point[i].frame * Vec<double, Dim>(std::cos(angle), std::sin(angle));
+  if (std::abs(direction[1]) > std::abs(direction[0])) return 0.0;
+  const double counts = (1.0 - 2.0 * other / largest) * (1.0 - borne / largest);
+  return counts * std::clamp(direction[1] / direction[0], -most_lean, most_lean);
+}
+
+template <int Dim>
+bool CrackRows<Dim>::straighten(std::size_t i) {
+  const Particles<Dim>& p = run_.particles;
+  if (p.kind[i] != kind::cracked) return false;
+  const double integrity = p.point[i].crack.integrity;
+  // Only while the crack grows: a row that followed the vibrations of a crack would feed them.
+  if (integrity < CrackBands<Dim>::least_integrity || integrity > grown * straightened_[i]) return false;
+  straightened_[i] = integrity;
+  rows_.set_lean(i, lean_of(i));
+  return true;
+}
+
+template <int Dim>
+std::vector<int> CrackRows<Dim>::released_by(std::size_t i) const {
+  const Particles<Dim>& p = run_.particles;
+  const CohesiveState<double, Dim>& crack = p.point[i].crack;
+  std::vector<int> cut;
+  if (!(crack.jump[0] > 0.0)) return cut;
+  // The crack's normal in the undeformed body.
+  const double nx = p.point[i].frame(0, 0);
+  const double ny = p.point[i].frame(0, 1);
+  for (const int neighbour : rows_.neighbours(i)) {
+    const auto j = static_cast<std::size_t>(neighbour);
+    const double rx = p.start[0][j] - p.start[0][i];
+    const double ry = p.start[1][j] - p.start[1][i];
+    // Displacement of j seen from i, turned back by the rotation of i.
+    const double gx = p.position[0][j] - p.position[0][i];
+    const double gy = p.position[1][j] - p.position[1][i];
+    const double ux = p.rotation[0][i] * gx + p.rotation[1][i] * gy - rx;
+    const double uy = p.rotation[0][i] * gy - p.rotation[1][i] * gx - ry;
+    const double along = nx * rx + ny * ry;
+    const double opening = (nx * ux + ny * uy) * (along < 0.0 ? -1.0 : 1.0);
+    if (opening >= 0.5 * crack.jump[0]) cut.push_back(neighbour);
+  }
+  return cut;
+}
+
+template <int Dim>
+long long CrackRows<Dim>::release() {
+  const Particles<Dim>& p = run_.particles;
+  std::vector<std::size_t> changed;
+  long long count = 0;
+  for (std::size_t i = 0; i < p.count; ++i) {
+    if (p.kind[i] != kind::cracked || p.point[i].crack.integrity >= run_.setup.options.release_integrity) continue;
+    for (const int j : released_by(i)) {
+      rows_.cut(i, j);
+      changed.push_back(i);
+      changed.push_back(static_cast<std::size_t>(j));
+      ++count;
+    }
+  }
+  for (const std::size_t i : changed) {
+    // The bonds that are left see less of the crack, or none of it.
+    if (p.point[i].crack.integrity < run_.setup.options.release_integrity) rows_.set_lean(i, 0.0);
+  }
+  write(changed);
+  return count;
+}
+
+template class CrackRows<2>;
+
+}  // namespace fpz::sph::detail

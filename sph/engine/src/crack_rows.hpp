@@ -1,0 +1,40 @@
+// What a crack changes in the rows of its particles: rows beyond the first no longer see across it, derivatives along
+// it have no part of its opening, and at the end its bonds are cut.
+#pragma once
+
+#include "bond_rows.hpp"
+
+namespace fpz::sph::detail {
+
+template <int Dim>
+class CrackRows {
+ public:
+  CrackRows(RunData<Dim>& run, BondRows<Dim>& rows)
+      : run_(run), rows_(rows), straightened_(run.particles.count, 1.0) {}
+
+  /// Finds the lean of a particle again if its crack has grown; says whether it did.
+  bool straighten(std::size_t i);
+  /// Narrows the rows of particles that have begun to open.
+  void narrow();
+  /// Cuts bonds across open cracks (options.release_integrity); how many.
+  long long release();
+
+  template <class Archive, class Self>
+  static void transfer(Archive& archive, Self& self) {
+    archive(self.straightened_);
+  }
+
+ private:
+  [[nodiscard]] double rotation_beside(std::size_t i) const;
+  [[nodiscard]] double lean_of(std::size_t i) const;
+  /// Neighbours of a cracked particle beyond its crack, far enough away to let go.
+  [[nodiscard]] std::vector<int> released_by(std::size_t i) const;
+  /// Writes rows, each once.
+  void write(std::vector<std::size_t>& changed);
+
+  RunData<Dim>& run_;
+  BondRows<Dim>& rows_;
+  Field straightened_;  ///< integrity at which the lean was found
+};
+
+}  // namespace fpz::sph::detail
