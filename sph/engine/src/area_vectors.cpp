@@ -12,6 +12,7 @@ std::vector<Vec<double, Dim>> area_vectors(const RunSetup<Dim>& setup) {
   RunSetup<Dim> bare = setup;
   bare.loads.clear();
   bare.velocity.clear();
+  bare.initial_stress.setZero();
   std::string text;
   for (const std::string& problem : problems(bare)) text += problem + "\n";
   if (bare.options.momentum != MomentumForm::adjoint) text += "pressure on a surface needs the momentum form adjoint\n";

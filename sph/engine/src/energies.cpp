@@ -22,6 +22,7 @@ Energies Engine<Dim>::energies() const {
   const WorkLedger<Dim>& ledger = run.ledger;
   Energies sum;
   sum.kinetic_start = ledger.kinetic_start;
+  sum.elastic_start = ledger.elastic_start;
   sum.external = ledger.external;
   sum.kinetic = run.started ? kinetic() : 0.0;
   Material<double> m = run.material;

@@ -143,6 +143,7 @@ std::vector<std::string> problems(const RunSetup<Dim>& s) {
                   "contact_stiffness above 0");
   }
   for (const Load<Dim>& load : s.loads) check_load(load, s.arrangement, m);
+  m.require(is_finite(s.initial_stress), "initial_stress: must be finite");
   Parameters p = s.parameters;
   p.rve_length = 1e-6;  // the particles carry their own
   const Validation v = validate(p, s.setting);

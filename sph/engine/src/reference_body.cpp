@@ -30,6 +30,13 @@ BondRows<Dim> ReferenceBody<Dim>::make_rows() {
   return BondRows<Dim>(run, this->lists_, this->bonds_);
 }
 
+/// Of an initial stress.
+template <int Dim>
+void ReferenceBody<Dim>::start() {
+  const Particles<Dim>& p = this->run_.particles;
+  for (std::size_t i = 0; i < p.count; ++i) set_flux(i, {p.stress[0][i], p.stress[1][i], p.stress[2][i]});
+}
+
 template <int Dim>
 Outcome ReferenceBody<Dim>::advance() {
   const RunData<Dim>& run = this->run_;

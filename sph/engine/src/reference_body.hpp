@@ -16,6 +16,7 @@ class ReferenceBody final : public Body<Dim> {
  public:
   explicit ReferenceBody(RunData<Dim>& run);
 
+  void start() override;
   [[nodiscard]] Outcome advance() override;
   void force(const View<Dim>& view) override;
   void save(Writer& archive) const override;

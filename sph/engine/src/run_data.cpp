@@ -49,6 +49,7 @@ RunData<Dim>::RunData(const RunSetup<Dim>& s, double time_step) : setup(s), dt(t
   h = o.smoothing_ratio * setup.arrangement.spacing;
   passes = choose_passes(o);
   place_particles();
+  set_initial_stress();
   fields(*this, Point<Dim>{view});
   set_constants();
 }
@@ -83,6 +84,22 @@ void RunData<Dim>::place_particles() {
     const int g = a.group[k];
     piece.push_back(g >= 0 && !setup.groups[static_cast<std::size_t>(g)].bonded ? g + 1 : 0);
     p.kind[i] = g >= 0 && setup.groups[static_cast<std::size_t>(g)].elastic ? kind::elastic : kind::intact;
+  }
+}
+
+template <int Dim>
+void RunData<Dim>::set_initial_stress() {
+  const Tensor<double, Dim>& stress = setup.initial_stress;
+  const Tensor<double, Dim> strain = elastic_strain<Dim>(material.bulk, stress);
+  Particles<Dim>& p = particles;
+  for (std::size_t i = 0; i < p.count; ++i) {
+    for (std::size_t k = 0; k < components; ++k) {
+      p.stress[k][i] = stress[static_cast<int>(k)];
+      p.strain[k][i] = strain[static_cast<int>(k)];
+    }
+    p.gradient[0][i] = strain[0], p.gradient[3][i] = strain[1];  // F - I, which is symmetric
+    p.gradient[1][i] = p.gradient[2][i] = strain[2];
+    ledger.elastic_start += elastic_energy<Dim>(material.bulk, stress, p.volume[i]);
   }
 }
 

@@ -74,6 +74,7 @@ struct RunData {
 
  private:
   void place_particles();
+  void set_initial_stress();
   void set_constants();
 };
 

@@ -46,6 +46,7 @@ std::uint64_t fingerprint(const RunSetup<Dim>& s) {
   w(s.arrangement.group);
   for (const auto& line : s.arrangement.surface) w(line);
   w(s.velocity);
+  w(s.initial_stress);
   for (const Cut<Dim>& cut : s.arrangement.cuts)
     w(cut.corner), w(cut.is_tip), w(cut.width), w(cut.gap), w(cut.friction);
   for (const Group<Dim>& g : s.groups) {

@@ -27,6 +27,7 @@ void require_sound(const RunSetup<Dim>& setup) {
       text += "static equilibrium knows no group that yields to forces: " + g.name + "\n";
     }
   }
+  if (!setup.initial_stress.isZero(0.0)) text += "static equilibrium begins without stress\n";
   if (!setup.loads.empty()) text += "static equilibrium takes its forces from StaticLoad, not from loads\n";
   if (!text.empty()) throw std::invalid_argument(text.substr(0, text.size() - 1));
 }

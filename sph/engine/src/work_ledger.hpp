@@ -11,6 +11,7 @@ struct WorkLedger {
   double external = 0.0;                        ///< J, of the boundaries
   double zero_energy = 0.0;                     ///< J, that the zero-energy control held in bonds that ended
   double kinetic_start = 0.0;                   ///< J
+  double elastic_start = 0.0;                   ///< J
   Field damping, viscous, artificial;           ///< J, taken so far, per block
   Field damping_next;                           ///< J, what the damping force at n will have taken by n + 1/2
   Fields<Dim> viscous_force, artificial_force;  ///< updated: of the last step, N
@@ -32,6 +33,7 @@ struct WorkLedger {
     archive(self.external);
     archive(self.zero_energy);
     archive(self.kinetic_start);
+    archive(self.elastic_start);
   }
 };
 

@@ -107,8 +107,9 @@ SurfaceLoad read_load(const InputReader& r, const Place& place, const Scene& sce
     r.problem(place, "needs one of \"pressure\" (positive: inward) and \"traction\" with its \"direction\"");
     return load;
   }
-  with(place, pressure ? "pressure" : "traction",
-       [&](const Place& p) { load.course = read_time_course(r, p, {"value"}); });
+  with(place, pressure ? "pressure" : "traction", [&](const Place& p) {
+    load.course = read_time_course(r, p, {"value", !scene.initial_stress});
+  });
   if (!pressure) {
     with_required(r, place, "direction",
                   [&](const Place& p) { load.direction = direction(r, p).value_or(Point(1.0, 0.0)); });

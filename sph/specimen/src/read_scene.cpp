@@ -9,10 +9,10 @@ namespace {
 using namespace detail;
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 19> root_keys = {
-    "name",   "description", "source",  "material",    "setting", "thickness",  "spacing",
-    "shape",  "holes",       "notches", "arrangement", "method",  "boundaries", "loads",
-    "gauges", "toughness",   "stages",  "stop",        "output"};
+constexpr std::array<std::string_view, 20> root_keys = {
+    "name",  "description", "source",    "material",    "setting", "thickness",      "spacing",
+    "shape", "holes",       "notches",   "arrangement", "method",  "initial_stress", "boundaries",
+    "loads", "gauges",      "toughness", "stages",      "stop",    "output"};
 
 /// Puts what an object says in place of the same keys of the file that it names.
 void replace_members(JsonValue& file, const JsonValue& given) {
@@ -81,6 +81,19 @@ void read_header(const InputReader& r, const Place& root, Scene& scene) {
   with_required(r, root, "spacing", [&](const Place& p) { scene.spacing = r.positive(p).value_or(1.0); });
 }
 
+/// Components of a stress that is the same everywhere, Pa.
+Tensor<double, 2> read_stress(const InputReader& r, const Place& place) {
+  Tensor<double, 2> stress = Tensor<double, 2>::Zero();
+  std::vector<std::string_view> keys;
+  for (const auto& word : Words<PlaneComponent>::list) keys.emplace_back(word.text);
+  if (!r.object(place, "\"xx\", \"yy\" and \"xy\" (Pa, tension positive)")) return stress;
+  r.known_keys(place, keys);
+  for (std::size_t k = 0; k < keys.size(); ++k) {
+    with(place, keys[k], [&](const Place& p) { stress[static_cast<int>(k)] = r.number(p).value_or(0.0); });
+  }
+  return stress;
+}
+
 /// Names only: servos of the boundaries follow gauges, which look at boundaries.
 std::vector<std::string> gauge_names(const JsonValue& root) {
   std::vector<std::string> names;
@@ -116,6 +129,7 @@ Scene read_tree(JsonValue& root, const std::string& origin, const io::ReadLimits
   with(top, "method", [&](const Place& p) { read_method(r, p, scene.options); });
   read_body(r, top, scene);
   read_arrangement(r, top, scene);
+  with(top, "initial_stress", [&](const Place& p) { scene.initial_stress = read_stress(r, p); });
   with_required(r, top, "boundaries", [&](const Place& p) { read_boundaries(r, p, gauges, scene); });
   with(top, "loads", [&](const Place& p) { read_loads(r, p, scene); });
   with_required(r, top, "gauges", [&](const Place& p) { read_gauges(r, p, scene); });

@@ -163,6 +163,7 @@ Specimen make_specimen(const Scene& scene) {
   }
   s.setup.parameters = scene.parameters;
   s.setup.setting = scene.setting;
+  if (scene.initial_stress) s.setup.initial_stress = *scene.initial_stress;
   s.setup.options = scene.options;
   if (scene.options.threads == 0) s.setup.options.threads = worthwhile_threads(a.size());
   add_loads(scene, s);

@@ -338,6 +338,35 @@ TEST(LoadingRun, HingedRollersDoNotHinderABeam) {
   EXPECT_GT(bonded, 1.2 * hinged);
 }
 
+/// A plate that is under stress from the start, in balance with its loads, stays at rest; when its end is let go it
+/// stretches by what the stress has shortened it.
+TEST(LoadingRun, AnInitialStressIsInBalanceAndIsLetGo) {
+  for (const char* configuration : {"reference", "updated"}) {
+    const RunResult r = run(plate(roller + gauges + R"("initial_stress": {"xx": -20e6, "yy": -5e6}, "loads": [
+      {"name": "end", "on": {"low": [0.02, -0.01], "high": [0.02, 0.01]}, "pressure": 20e6},
+      {"name": "sides", "on": [{"low": [-0.02, 0.01], "high": [0.02, 0.01]}, {"low": [-0.02, -0.01],
+        "high": [0.02, -0.01]}], "pressure": 5e6}],
+      "method": {"damping": 0, "artificial_stress": 0, "configuration": ")" +
+                                  configuration + R"("}, "stages": [{"name": "rest", "stop": {"time": 1e-4}},
+        {"name": "let go", "damping": 0.3, "loads": {"end": {"value": 0, "ramp": 3e-4}}, "stop": {"time": 6e-4}}],
+      "output": {"frames": 0, "pictures": false, "history_rows": 200})"),
+                            std::string("stressed_") + configuration);
+    ASSERT_EQ(r.ending, Ending::finished) << r.reason;
+    const History& h = r.history;
+    const std::size_t rest = row_at(h, r.stages[0].end);
+    const double e = 50e9, nu = 0.25, stretch = 20e6 * (1.0 - nu * nu) / e * 0.04;  // from the first row of the roller
+    // The roller, stressed as well, has free sides that move a little.
+    EXPECT_LT(h.at(rest, "energy_kinetic"), 0.005 * h.at(rest, "energy_elastic"));
+    EXPECT_LT(std::abs(h.at(rest, "deflection")), 0.02 * stretch) << configuration;
+    EXPECT_NEAR(h.at(rest, "sxx"), -20e6, 0.01 * 20e6) << configuration;
+    EXPECT_NEAR(h.at(rest, "load"), 20e3, 0.02 * 20e3);
+    EXPECT_NEAR(h.last("deflection"), -stretch, 0.03 * stretch) << configuration;
+    EXPECT_NEAR(h.last("sxx"), 0.0, 0.02 * 20e6);
+    EXPECT_NEAR(h.last("syy"), -5e6, 0.02 * 20e6);
+    EXPECT_LT(std::abs(h.last("energy_error")), 2e-3 * h.at(rest, "energy_elastic"));
+  }
+}
+
 /// Between platens without friction a plate has one stress everywhere, and the stiffness of a bar.
 TEST(LoadingRun, PlatensWithoutFrictionPressEvenly) {
   const auto pressed = [&](const char* friction, const std::string& name) {
@@ -448,6 +477,9 @@ TEST(LoadingRun, WhatIsWrongWithALoadIsNamed) {
             std::string::npos);
   EXPECT_NE(said(R"("on": "all", "direction": [1, 0], )" + pressure).find("is for a traction"), std::string::npos);
   EXPECT_NE(said(R"("on": "all", "traction": {"value": 1, "ramp": 1})").find("missing key \"direction\""),
+            std::string::npos);
+  EXPECT_NE(complaint(plate(roller + gauges + R"("stop": {"time": 1e-4}, "initial_stress": {"zz": -1e6})"))
+                .find("initial_stress.zz: unknown key"),
             std::string::npos);
   EXPECT_NE(complaint(plate(roller + gauges + R"("stop": {"time": 1e-4}, "method": {"momentum": "paper"},
       "loads": [{"name": "p", "on": "all", "pressure": {"value": 1, "ramp": 1}}])"))

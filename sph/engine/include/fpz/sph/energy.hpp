@@ -22,6 +22,7 @@ struct Energies {
   double contact = 0.0;      ///< stored where faces press on each other
   double friction = 0.0;     ///< dissipated where faces slide and where they hit each other
   double kinetic_start = 0.0;
+  double elastic_start = 0.0;  ///< of an initial stress
 
   /// What the balance lacks: zero for exact integration.
   [[nodiscard]] constexpr double error() const;
@@ -39,11 +40,12 @@ struct EnergyTerm {
 
 /// The one list of the terms, in the order in which they are added and reported.
 // clang-format off
-inline constexpr std::array<EnergyTerm, 11> energy_terms = {{
+inline constexpr std::array<EnergyTerm, 12> energy_terms = {{
     {"external",      &Energies::external,      EnergyRole::source,  "work of boundaries, loads and gravity"},
     {"elastic",       &Energies::elastic,       EnergyRole::sink,    "stored in the bulk and in cohesive zones"},
     {"kinetic",       &Energies::kinetic,       EnergyRole::sink,    "kinetic, of the leap-frog"},
     {"kinetic_start", &Energies::kinetic_start, EnergyRole::initial, "kinetic at the start"},
+    {"elastic_start", &Energies::elastic_start, EnergyRole::initial, "elastic at the start"},
     {"fracture",      &Energies::fracture,      EnergyRole::sink,    "dissipated by the cohesive zones"},
     {"zero_energy",   &Energies::zero_energy,   EnergyRole::sink,    "stored in the zero-energy control"},
     {"viscous",       &Energies::viscous,       EnergyRole::sink,

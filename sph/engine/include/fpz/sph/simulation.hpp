@@ -32,6 +32,8 @@ struct RunSetup {
   Setting setting = Setting::plane_strain;
   Options<Dim> options;
   std::vector<Vec<double, Dim>> velocity;  ///< at the start, per particle, m/s; empty: at rest
+  /// Even stress at the start, Pa, tension positive; positions are those of the stressed body.
+  Tensor<double, Dim> initial_stress = Tensor<double, Dim>::Zero();
 };
 
 /// What is wrong with a set-up, one message per problem with the field's name; empty when it can run.

@@ -86,6 +86,7 @@ struct Scene {
   std::optional<ParticleFile> particles;
   std::vector<Boundary> boundaries;
   std::vector<SurfaceLoad> loads;
+  std::optional<Tensor<double, 2>> initial_stress;  ///< xx, yy, xy, Pa; everywhere
   sph::Options<2> options;
   std::map<std::string, Gauge> gauges;  ///< "load" and "deflection" are always there
   std::optional<SemicircularBending> toughness;
