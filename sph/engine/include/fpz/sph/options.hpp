@@ -65,7 +65,7 @@ struct Options {
   double damping = 0.0;     ///< local damping: this part of the resultant force opposes the velocity
   double mass_scale = 1.0;  ///< inertia is multiplied by this (gravity is not)
   /// reference: the bonds of a crack whose integrity 1 - D is below this are cut where the displacements of their two
-  /// ends differ by at least half of its opening. 0: never.
+  /// ends differ by at least half of its opening. 0: never, and rows of cracked particles are not narrowed.
   double release_integrity = 0.02;
   Vec<double, Dim> gravity = Vec<double, Dim>::Zero();  ///< m/s^2
   int threads = 0;                                      ///< 0: all that OpenMP offers
