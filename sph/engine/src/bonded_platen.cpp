@@ -71,6 +71,14 @@ void BondedPlaten<Dim>::hold() {
 }
 
 template <int Dim>
+void BondedPlaten<Dim>::mark_driven(Mask& components) const {
+  for (std::size_t c = 0; c < this->run_.dimensions; ++c) {
+    if (!actuator_[c]) continue;
+    for (const std::size_t i : slots_) components[i] = static_cast<unsigned char>(components[i] | (1U << c));
+  }
+}
+
+template <int Dim>
 double BondedPlaten<Dim>::stable_step() const {
   double limit = std::numeric_limits<double>::infinity();
   for (const auto& a : actuator_) {

@@ -16,6 +16,7 @@ class BondedPlaten final : public Boundary<Dim> {
   void act(double step) override;
   /// A component that yields keeps the mean of its particles.
   void hold() override;
+  void mark_driven(Mask& components) const override;
   /// What the motion of its particles lacks, from their momentum balance: the force of a component that yields; zero in
   /// free components.
   [[nodiscard]] Vec<double, Dim> reaction() const override { return reaction_; }

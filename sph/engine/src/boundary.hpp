@@ -26,6 +26,8 @@ class Boundary {
   virtual void act(double /*step*/) {}
   /// Its homogeneous form, for the frequencies of the body: zero velocity where it is prescribed.
   virtual void hold() {}
+  /// Marks the components of particles whose velocity it makes, a bit for each, whether prescribed or by its own mass.
+  virtual void mark_driven(Mask& /*components*/) const {}
   /// Force that it exerts at n, N (per metre of thickness in 2-D).
   [[nodiscard]] virtual Vec<double, Dim> reaction() const = 0;
   /// Velocity at n + 1/2 of what it drives, m/s; zero in free components.

@@ -28,20 +28,12 @@ Contact<Dim>::Contact(RunData<Dim>& run, const Boundaries<Dim>& boundaries) : ru
   find_members();
 }
 
-/// What the boundaries take from velocities of one.
+/// A platen that yields to forces counts as prescribed too: it is heavier than the particles that meet it, and what
+/// drives it comes after the contact.
 template <int Dim>
 void Contact<Dim>::find_prescribed(const Boundaries<Dim>& boundaries) {
-  Particles<Dim>& p = run_.particles;
-  prescribed_.assign(p.padded(), 0);
-  const Fields<Dim> before = p.velocity;
-  for (Field& v : p.velocity) std::fill(v.begin(), v.end(), 1.0);
-  for (const auto& boundary : boundaries) boundary->hold();
-  for (std::size_t c = 0; c < run_.dimensions; ++c) {
-    for (std::size_t i = 0; i < p.count; ++i) {
-      if (p.velocity[c][i] == 0.0) prescribed_[i] = static_cast<unsigned char>(prescribed_[i] | (1U << c));
-    }
-  }
-  p.velocity = before;
+  prescribed_.assign(run_.particles.padded(), 0);
+  for (const auto& boundary : boundaries) boundary->mark_driven(prescribed_);
 }
 
 /// The particles of all faces, each once.

@@ -17,6 +17,9 @@ class HingedPlaten final : public Boundary<Dim> {
 
   void act(double step) override;
   void hold() override;
+  void mark_driven(Mask& components) const override {
+    for (const std::size_t i : slots_) components[i] = (1U << Dim) - 1U;
+  }
   /// Of the hinge, which carries no moment.
   [[nodiscard]] Vec<double, Dim> reaction() const override { return reaction_; }
   [[nodiscard]] Vec<double, Dim> velocity() const override { return motion_.template head<Dim>(); }

@@ -397,6 +397,32 @@ TEST(LoadingRun, PlatensWithoutFrictionPressEvenly) {
   EXPECT_LT(bonded.last("edge_xx"), -0.1 * stress);
 }
 
+/// The contact of platens that yield to a force stores what its stiffness, ten times that of a spacing, makes of the
+/// pressure, and takes no more.
+TEST(LoadingRun, ContactOfPlatensUnderAForceKeepsItsEnergy) {
+  for (const char* hinge : {"", R"("hinge": true, )"}) {
+    const RunResult r = run(plate(std::string(R"("boundaries": [
+        {"name": "base", "at": [0, -0.03], "direction": [0, -1], "width": 0.02, "friction": 0,
+         "velocity": {"x": 0, "y": 0}},
+        {"name": "top", "at": [0, 0.03], "direction": [0, 1], "width": 0.02, "friction": 0, )") +
+                                      hinge + R"("velocity": {"x": 0}, "force": {"y": {"value": -20e3, "ramp": 1e-3}}}],
+      "gauges": {"load": {"force_on": "top", "direction": [0, -1]}, "support": {"force_on": "base", "direction": [0, 1]},
+        "deflection": {"displacement_of": "top", "relative_to": "base", "direction": [0, -1]}},
+      "method": {"damping": 0.3}, "stop": {"time": 2e-3},
+      "output": {"frames": 0, "pictures": false, "history_rows": 100})",
+                                  upright),
+                            "force_contact");
+    ASSERT_EQ(r.ending, Ending::finished) << r.reason;
+    const History& h = r.history;
+    const double modulus = 50e9 * 0.75 / (1.25 * 0.5), pressure = 20e6, area = 0.02 * 0.05;
+    const double stored = 2.0 * 0.5 * pressure * pressure * 0.002 / (10.0 * modulus) * area;
+    EXPECT_NEAR(h.last("support"), 20e3, 1e-3 * 20e3);
+    EXPECT_NEAR(h.last("energy_contact"), stored, 0.2 * stored);
+    EXPECT_LT(std::abs(h.last("energy_friction")), 0.1 * stored);
+    EXPECT_LT(std::abs(h.last("energy_error")), 2e-3 * h.last("energy_external"));
+  }
+}
+
 /// A disc between platens that it touches in one place at first: flat ones, and hollow jaws with 1.5 times its radius.
 /// Its centre has the stresses of the closed form for line loads, and the contact of the jaws is wider.
 TEST(LoadingRun, FlatPlatensAndJawsPressADisc) {
