@@ -287,6 +287,30 @@ TEST(LoadingRun, AServoGoesBackWithASnapBack) {
   EXPECT_GT(fastest(jumped.history), 10.0 * rate);
 }
 
+/// Magnitude of the second principal stress at which a material under the confining pressure cracks on an inclined
+/// plane: sqrt(r^2 + A^2) = c0 cos phi - p sin phi with the centre p and the radius r of the Mohr circle.
+double strength_under(const fpz::Parameters& m, double confinement) {
+  const double phi = m.friction_angle_deg * std::numbers::pi / 180.0;
+  const double apex = m.cohesion - m.tensile_strength * std::tan(phi);
+  double low = confinement, high = 1e3 * m.cohesion;
+  for (int k = 0; k < 100; ++k) {
+    const double s = 0.5 * (low + high), r = 0.5 * (s - confinement), p = -0.5 * (s + confinement);
+    (std::hypot(r, apex) < m.cohesion * std::cos(phi) - p * std::sin(phi) ? low : high) = s;
+  }
+  return low;
+}
+
+/// The shipped scene at 5 mm breaks where its onset surface says.
+TEST(LoadingRun, ConfinedCompressionBreaksAtItsStrength) {
+  const Scene scene = read_scene(fs::path(FPZ_DATA_DIR) / "scenes/confined_compression.json",
+                                 {"spacing=0.005", "output.frames=0", "output.pictures=false"});
+  const RunResult r = run(scene, "confined_to_the_end");
+  EXPECT_NE(r.reason.find("stop.load_below"), std::string::npos) << r.reason;
+  const double strength = strength_under(scene.parameters, 10e6) * 0.05 * 0.05;
+  EXPECT_NEAR(strength, 165.6e3, 0.1e3);
+  EXPECT_NEAR(largest(r.history, "load"), strength, 0.06 * strength);  // ten rows between bonded platens
+}
+
 /// The shipped scene at 5 mm: the pressure stays while the platens close in, and the stiffness is that of plane strain
 /// with the lateral stress held.
 TEST(LoadingRun, ConfinedCompressionHoldsItsPressure) {
