@@ -16,7 +16,11 @@ constexpr double kept_moment = 0.7;
 
 template <int Dim>
 BondRows<Dim>::BondRows(RunData<Dim>& run, NeighbourLists& lists, Bonds<Dim>& bonds)
-    : run_(run), lists_(lists), bonds_(bonds), leans_(run.particles.count, 0.0), width_(run.particles.count, Width::whole) {
+    : run_(run),
+      lists_(lists),
+      bonds_(bonds),
+      leans_(run.particles.count, 0.0),
+      width_(run.particles.count, Width::whole) {
   const Options<Dim>& o = run.setup.options;
   bonds_ = pack<Dim>(lists_, run.particles.padded(), false);
   if (o.gradient == Gradient::consistent && o.momentum == MomentumForm::adjoint) {

@@ -8,9 +8,9 @@
 namespace fpz::sph::detail {
 
 namespace {
-constexpr double grown = 0.995;      // integrity over that of the last time, below which a row is straightened again
-constexpr double most_lean = 0.6;    // 0.53 at a straight surface of a lattice
-constexpr double narrow_from = 0.02; // damage
+constexpr double grown = 0.995;       // integrity over that of the last time, below which a row is straightened again
+constexpr double most_lean = 0.6;     // 0.53 at a straight surface of a lattice
+constexpr double narrow_from = 0.02;  // damage
 }  // namespace
 
 template <int Dim>

@@ -9,8 +9,7 @@ namespace fpz::sph::detail {
 template <int Dim>
 class CrackRows {
  public:
-  CrackRows(RunData<Dim>& run, BondRows<Dim>& rows)
-      : run_(run), rows_(rows), straightened_(run.particles.count, 1.0) {}
+  CrackRows(RunData<Dim>& run, BondRows<Dim>& rows) : run_(run), rows_(rows), straightened_(run.particles.count, 1.0) {}
 
   /// Finds the lean of a particle again if its crack has grown; says whether it did.
   bool straighten(std::size_t i);

@@ -8,6 +8,7 @@
 #include "checkpointer.hpp"
 #include "fpz/io/output.hpp"
 #include "fpz/io/problems.hpp"
+#include "fpz/specimen/bifurcation.hpp"
 #include "fpz/specimen/closure.hpp"
 #include "fpz/specimen/summary.hpp"
 #include "frame_writer.hpp"
@@ -141,7 +142,9 @@ class Runner {
     const double overlap = run_.overlap();
     const std::string closed = std::isnan(overlap) ? warning_of_closure(overlaps(), scene_.spacing)
                                                    : warning_of_overlap(overlap, scene_.spacing);
-    if (!closed.empty()) result.warnings.push_back(closed);
+    for (const std::string& w : {closed, warning_of_bifurcation(paths, scene_.spacing)}) {
+      if (!w.empty()) result.warnings.push_back(w);
+    }
     const std::string error = error_of_the_model(scene_, f);
     if (!error.empty()) {
       result.ending = Ending::failed;
