@@ -3,6 +3,8 @@
 #pragma once
 
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include "bonds.hpp"
 #include "plane.hpp"
@@ -28,6 +30,9 @@ class Body {
   /// What cannot be found from the particles, for snapshots; load() makes what follows from it, after the particles.
   virtual void save(Writer& archive) const = 0;
   virtual void load(Reader& archive) = 0;
+
+  /// The bonds that were cut since the last call.
+  [[nodiscard]] std::vector<ReleasedBond<Dim>> take_released() { return std::exchange(fresh_, {}); }
 
   [[nodiscard]] const NeighbourLists& lists() const { return lists_; }
   [[nodiscard]] long long builds() const { return builds_; }      ///< of the neighbour lists
@@ -64,6 +69,7 @@ class Body {
   Bonds<Dim> bonds_;
   long long builds_ = 0;
   long long released_ = 0;
+  std::vector<ReleasedBond<Dim>> fresh_;
 
  private:
   /// Library update of the flagged particles of [first, last) blocks. Returns the first failure.

@@ -49,6 +49,14 @@ struct Bonds {
   }
 };
 
+/// A bond that a crack has cut.
+template <int Dim>
+struct ReleasedBond {
+  std::size_t from, to;     ///< slots
+  Vec<double, Dim> normal;  ///< of the crack in the undeformed body, unit, from one to the other
+  bool pressed;             ///< the crack was under pressure: its faces touch, however far they have been moved apart
+};
+
 /// Lays the lists out; weights are zero, `with_closeness` allocates that field too.
 template <int Dim>
 [[nodiscard]] Bonds<Dim> pack(const NeighbourLists& lists, std::size_t padded, bool with_closeness);

@@ -53,29 +53,86 @@ void Contact<Dim>::find_members() {
     }
   }
   places_.assign(points_.size(), {});
+  for (std::size_t k = 0; k < points_.size(); ++k) add_shares(points_[k], slots, places_[k]);
+}
+
+/// A face turns as the mean of its sides does; single particles do not show that.
+template <int Dim>
+void Contact<Dim>::add_shares(const ContactPoint<Dim>& point, const std::vector<std::size_t>& slots, Place& place) {
+  const auto turns = [](const FaceSide& side) { return side.particle.size() > 1 ? 1.0 : 0.0; };
+  const double sides = std::max(1.0, turns(point.side[0]) + turns(point.side[1]));
+  for (std::size_t s = 0; s < 2; ++s) {
+    const FaceSide& side = point.side[s];
+    for (std::size_t k = 0; k < side.particle.size(); ++k) {
+      const auto at = std::lower_bound(slots.begin(), slots.end(), side.particle[k]) - slots.begin();
+      const double weight = s == 0 ? -side.weight[k] : side.weight[k];
+      place.shares.push_back({static_cast<std::size_t>(at), weight, side.slope[k] / sides});
+    }
+  }
+}
+
+template <int Dim>
+void Contact<Dim>::add(const std::vector<ReleasedBond<Dim>>& released, const NeighbourLists& lists) {
+  refit(released, lists);
+  const std::size_t first = points_.size();
+  std::vector<bool> pressed;
+  for (const ReleasedBond<Dim>& bond : released) {
+    auto point = point_of_bond(run_, lists, bond);
+    if (!point) continue;
+    points_.push_back(std::move(*point));
+    pressed.push_back(bond.pressed);
+  }
+  find_members();
+  for (std::size_t k = first; k < points_.size(); ++k) {
+    ContactPoint<Dim>& point = points_[k];
+    look(point, places_[k]);
+    point.distance = places_[k].motion;
+    if (pressed[k - first] || places_[k].gap < 0.0) point.room -= places_[k].gap;
+  }
+}
+
+/// Points whose ends have lost bonds go on with the particles that are left, at the same gap and shift.
+template <int Dim>
+void Contact<Dim>::refit(const std::vector<ReleasedBond<Dim>>& released, const NeighbourLists& lists) {
+  Mask touched(run_.particles.count, 0);
+  for (const ReleasedBond<Dim>& bond : released) touched[bond.from] = touched[bond.to] = 1;
+  std::vector<std::size_t> changed;
+  std::vector<Place> before;
   for (std::size_t k = 0; k < points_.size(); ++k) {
-    for_each_particle(points_[k], [&](std::size_t i, double weight) {
-      const auto at = std::lower_bound(slots.begin(), slots.end(), i) - slots.begin();
-      places_[k].shares.push_back({static_cast<std::size_t>(at), weight});
-    });
+    ContactPoint<Dim>& point = points_[k];
+    if (!point.of_crack || (touched[point.side[0].particle[0]] | touched[point.side[1].particle[0]]) == 0) continue;
+    look(point, places_[k]);
+    changed.push_back(k);
+    before.push_back(places_[k]);
+    fit_sides_of_bond(run_, lists, point);
+  }
+  find_members();
+  for (std::size_t n = 0; n < changed.size(); ++n) {
+    ContactPoint<Dim>& point = points_[changed[n]];
+    Place& place = places_[changed[n]];
+    look(point, place);
+    point.room += before[n].gap - place.gap;
+    point.slip += place.shift - before[n].shift;
+    point.distance += place.motion - before[n].motion;
   }
 }
 
 template <int Dim>
 void Contact<Dim>::look(const ContactPoint<Dim>& point, Place& place) const {
   const Particles<Dim>& p = run_.particles;
-  Vector distance = point.at_start, turn = Vector::Zero();
+  Vector distance = point.at_start, slope = Vector::Zero();
   for (const Share& s : place.shares) {
     const std::size_t i = members_[s.member].slot;
-    distance += s.weight * Vector(p.position[0][i] - p.start[0][i], p.position[1][i] - p.start[1][i]);
-    turn += std::abs(s.weight) * Vector(p.rotation[0][i], p.rotation[1][i]);
+    const Vector u(p.position[0][i] - p.start[0][i], p.position[1][i] - p.start[1][i]);
+    distance += s.weight * u;
+    slope += s.slope * u;
   }
-  turn.normalize();
-  const Vector& n = point.normal;
-  place.normal = Vector(turn[0] * n[0] - turn[1] * n[1], turn[1] * n[0] + turn[0] * n[1]);
-  place.tangent = Vector(-place.normal[1], place.normal[0]);
+  const Vector left(-point.normal[1], point.normal[0]);
+  place.tangent = (left + slope).normalized();
+  place.normal = Vector(place.tangent[1], -place.tangent[0]);
   place.gap = place.normal.dot(distance) + point.room;
   place.shift = place.tangent.dot(distance);
+  place.slid = place.shift - left.dot(point.at_start);
   place.motion = distance - point.distance;
 }
 
@@ -133,7 +190,7 @@ double Contact<Dim>::correct(ContactPoint<Dim>& point, const Place& place, doubl
   const double gap = place.gap + run_.dt * place.normal.dot(speed) - place.normal_give * point.pressure;
   const double shift = place.shift + run_.dt * place.tangent.dot(speed) - place.shear_give * point.shear;
   const double pressure = point.law.implicit_pressure(gap, place.normal_give);
-  if (pressure == 0.0 && point.pressure == 0.0) return 0.0;
+  if (point.pressure == 0.0 && (pressure == 0.0 || std::abs(place.slid) > point.longest_shift)) return 0.0;
   const double shear = point.law.implicit_shear(shift - point.slip, place.shear_give, pressure);
   const double more = pressure - point.pressure, more_shear = shear - point.shear;
   const Vector impulse = step * (more * place.normal + more_shear * place.tangent);
@@ -211,13 +268,14 @@ double Contact<Dim>::overlap() const {
 template <int Dim>
 void Contact<Dim>::save(Writer& archive) const {
   archive(taken_);
-  for (const ContactPoint<Dim>& point : points_) transfer_state(archive, point);
+  archive(points_);
 }
 
 template <int Dim>
 void Contact<Dim>::load(Reader& archive) {
   archive(taken_);
-  for (ContactPoint<Dim>& point : points_) transfer_state(archive, point);
+  archive(points_);
+  find_members();
 }
 
 template class Contact<2>;

@@ -18,6 +18,9 @@ class Contact {
  public:
   Contact(RunData<Dim>& run, const Boundaries<Dim>& boundaries);
 
+  /// The faces of cracks, from bonds that have just been cut. Those that were pressed together touch.
+  void add(const std::vector<ReleasedBond<Dim>>& released, const NeighbourLists& lists);
+
   /// Gaps at n. Whether faces have pressed on each other in the step before.
   [[nodiscard]] bool prepare();
   /// Adds the forces of the step before to RunData::outer_force.
@@ -48,11 +51,13 @@ class Contact {
   struct Share {
     std::size_t member;
     double weight;
+    double slope;  ///< 1/m: what its displacement turns the face by
   };
   /// A point as the particles lie at n.
   struct Place {
     std::vector<Share> shares;
     Vector normal, tangent;
+    double slid = 0.0;                           ///< m, since the undeformed body
     double gap = 0.0, shift = 0.0;               ///< m
     double normal_give = 0.0, shear_give = 0.0;  ///< m/N: what a newton adds to gap and shift at n + 1
     double pressure = 0.0, shear = 0.0;          ///< N, of the step before
@@ -61,6 +66,8 @@ class Contact {
 
   void find_prescribed(const Boundaries<Dim>& boundaries);
   void find_members();
+  static void add_shares(const ContactPoint<Dim>& point, const std::vector<std::size_t>& slots, Place& place);
+  void refit(const std::vector<ReleasedBond<Dim>>& released, const NeighbourLists& lists);
   /// Gap and shift of a point whose shares are known.
   void look(const ContactPoint<Dim>& point, Place& place) const;
   void predict(double step);

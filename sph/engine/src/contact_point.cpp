@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 namespace fpz::sph::detail {
 
@@ -16,10 +17,10 @@ constexpr double beside = 1.1;      // spacings: no face where no particle is ne
 constexpr double ahead = 0.75;      // or where all lie this far to one side along it
 constexpr double before_tip = 0.9;  // spacings: from there on bonds cross the cut in part (share_of_bond)
 
-/// A place on a face, and the direction into its body.
+/// A place on a face of a cut, the direction along it, and the one into its body.
 struct FacePlace {
   std::size_t cut;
-  Vec2 at, inward;
+  Vec2 at, along, inward;
 };
 
 /// Whether the particle at x lies behind the face and no other cut hides it.
@@ -31,53 +32,87 @@ bool is_behind(const std::vector<Cut<2>>& cuts, const FacePlace& face, const Vec
   return true;
 }
 
-/// The particles behind a place, with weights that reproduce linear fields: the place then moves as the body does, and
-/// its forces have the right moment. Nothing where the body is too far away.
-std::optional<FaceSide> side_behind(const RunData<2>& run, const FacePlace& face) {
-  const Particles<2>& p = run.particles;
-  const Arrangement<2>& a = run.setup.arrangement;
-  FaceSide side;
+Vec2 start_of(const RunData<2>& run, std::size_t i) { return {run.particles.start[0][i], run.particles.start[1][i]}; }
+
+/// Weights of particles with which linear fields are right at x, and their slopes along the face: the place then moves
+/// as the body does, and its forces have the right moment. Nothing when the particles lie on a line, or all to one side
+/// far away.
+std::optional<FaceSide> fitted_side(const RunData<2>& run, const Vec2& x, const Vec2& along,
+                                    const std::vector<std::size_t>& particles) {
+  constexpr double most = 4.0;  // sum of the sizes of the weights; two rows have 2, or 3 at the end of a face
+  const double spacing = run.setup.arrangement.spacing;
+  FaceSide side{particles, {}, {}};
   std::vector<Eigen::Vector3d> terms;
   Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
-  const Vec2 along(-face.inward[1], face.inward[0]);
-  double nearest = reach, first = reach, last = -reach;
-  for (std::size_t i = 0; i < p.count; ++i) {
-    const Vec2 x(p.start[0][i], p.start[1][i]);
-    const Vec2 r = (x - face.at) / a.spacing;
-    const double q = r.squaredNorm() / (reach * reach);
-    if (q >= 1.0 || !is_behind(a.cuts, face, x)) continue;
-    nearest = std::min(nearest, r.norm());
-    first = std::min(first, along.dot(r));
-    last = std::max(last, along.dot(r));
+  for (const std::size_t i : particles) {
+    const Vec2 r = (start_of(run, i) - x) / spacing;
+    const double bell = std::max(0.0, 1.0 - r.squaredNorm() / (reach * reach));
     const Eigen::Vector3d place(1.0, r[0], r[1]);
-    side.particle.push_back(i);
-    terms.push_back((1.0 - q) * (1.0 - q) * p.volume[i] / (a.spacing * a.spacing) * place);
+    terms.push_back(bell * bell * run.particles.volume[i] / (spacing * spacing) * place);
     moments += terms.back() * place.transpose();
   }
   const Eigen::FullPivLU<Eigen::Matrix3d> factors(moments);
-  if (nearest > beside || first > ahead || last < -ahead || !factors.isInvertible()) return std::nullopt;
-  const Eigen::Vector3d constants = factors.solve(Eigen::Vector3d::UnitX());
-  for (const Eigen::Vector3d& t : terms) side.weight.push_back(t.dot(constants));
-  return side;
+  if (!factors.isInvertible()) return std::nullopt;
+  const Eigen::Vector3d value = factors.solve(Eigen::Vector3d::UnitX());
+  const Eigen::Vector3d slope = factors.solve(Eigen::Vector3d(0.0, along[0], along[1]) / spacing);
+  double size = 0.0;
+  for (const Eigen::Vector3d& t : terms) {
+    size += std::abs(side.weight.emplace_back(t.dot(value)));
+    side.slope.push_back(t.dot(slope));
+  }
+  return size < most ? std::optional(side) : std::nullopt;
+}
+
+/// The particles behind a place. Nothing where the body is too far away.
+std::optional<FaceSide> side_behind(const RunData<2>& run, const FacePlace& face) {
+  const Arrangement<2>& a = run.setup.arrangement;
+  const Vec2& along = face.along;
+  std::vector<std::size_t> particles;
+  double nearest = reach, first = reach, last = -reach;
+  for (std::size_t i = 0; i < run.particles.count; ++i) {
+    const Vec2 x = start_of(run, i), r = (x - face.at) / a.spacing;
+    if (r.norm() >= reach || !is_behind(a.cuts, face, x)) continue;
+    particles.push_back(i);
+    nearest = std::min(nearest, r.norm());
+    first = std::min(first, along.dot(r));
+    last = std::max(last, along.dot(r));
+  }
+  if (nearest > beside || first > ahead || last < -ahead) return std::nullopt;
+  return fitted_side(run, face.at, along, particles);
+}
+
+/// The face in the middle of a bond that was cut, on the side of one of its ends, which is the first particle. The end
+/// alone when too few neighbours are left to it.
+FaceSide side_of_bond(const RunData<2>& run, const NeighbourLists& lists, std::size_t end, const Vec2& middle,
+                      const Vec2& along, const Vec2& inward) {
+  std::vector<std::size_t> particles = {end};
+  for (const int j : lists[end]) {
+    const Vec2 r = start_of(run, static_cast<std::size_t>(j)) - middle;
+    if (r.dot(inward) > 0.0 && r.norm() < reach * run.setup.arrangement.spacing) {
+      particles.push_back(static_cast<std::size_t>(j));
+    }
+  }
+  return fitted_side(run, middle, along, particles).value_or(FaceSide{{end}, {1.0}, {0.0}});
 }
 
 void add_points(const RunData<2>& run, std::size_t k, std::vector<ContactPoint<2>>& points) {
   const Cut<2>& cut = run.setup.arrangement.cuts[k];
   const double spacing = run.setup.arrangement.spacing;
   const Vec2 line = cut.corner[1] - cut.corner[0], along = line.normalized();
-  const Vec2 normal(-along[1], along[0]), half = 0.5 * cut.width * normal;
+  const Vec2 normal(-along[1], along[0]), half = 0.5 * cut.width * normal, tangent = -along;
   const double begin = cut.is_tip[0] ? before_tip * spacing : 0.0;
   const double length = line.norm() - begin - (cut.is_tip[1] ? before_tip * spacing : 0.0);
   const auto count = static_cast<int>(std::ceil(length / spacing - 1e-6));
   for (int n = 0; n < count; ++n) {
     const Vec2 middle = cut.corner[0] + (begin + (n + 0.5) * length / count) * along;
-    auto right = side_behind(run, {k, middle - half, -normal});
-    auto left = side_behind(run, {k, middle + half, normal});
+    auto right = side_behind(run, {k, middle - half, tangent, -normal});
+    auto left = side_behind(run, {k, middle + half, tangent, normal});
     if (!right || !left) continue;
     ContactPoint<2>& point = points.emplace_back();
     point.side = {std::move(*right), std::move(*left)};
     point.normal = normal;
     point.room = cut.gap - cut.width;
+    point.longest_shift = std::numeric_limits<double>::infinity();
     point.law = contact_law(run, length / count, cut.friction);
     point.at_start = point.distance = cut.width * normal;
   }
@@ -92,12 +127,43 @@ ContactLaw contact_law(const RunData<Dim>& run, double area, double friction) {
 }
 
 template <int Dim>
+void fit_sides_of_bond(const RunData<Dim>& run, const NeighbourLists& lists, ContactPoint<Dim>& point) {
+  const std::size_t from = point.side[0].particle[0], to = point.side[1].particle[0];
+  const Vec2 middle = 0.5 * (start_of(run, from) + start_of(run, to));
+  const Vec2 left(-point.normal[1], point.normal[0]);
+  point.side = {side_of_bond(run, lists, from, middle, left, -point.normal),
+                side_of_bond(run, lists, to, middle, left, point.normal)};
+}
+
+template <int Dim>
+std::optional<ContactPoint<Dim>> point_of_bond(const RunData<Dim>& run, const NeighbourLists& lists,
+                                               const ReleasedBond<Dim>& bond) {
+  constexpr double longest = 1.6, steepest = 0.3;  // spacings; cosine between bond and normal
+  constexpr double share = 1.0 / 3.0;              // about three such bonds end at a particle beside a face
+  const double spacing = run.setup.arrangement.spacing;
+  const Vec2 r = start_of(run, bond.to) - start_of(run, bond.from);
+  if (r.norm() > longest * spacing || bond.normal.dot(r) < steepest * r.norm()) return {};
+  ContactPoint<Dim> point;
+  point.of_crack = true;
+  point.side = {FaceSide{{bond.from}, {1.0}, {0.0}}, FaceSide{{bond.to}, {1.0}, {0.0}}};
+  point.normal = bond.normal;
+  point.longest_shift = spacing;
+  point.law = contact_law(run, share * std::sqrt(run.particles.volume[bond.from]),
+                          std::tan(degree * run.setup.parameters.friction_angle_deg));
+  fit_sides_of_bond(run, lists, point);
+  return point;
+}
+
+template <int Dim>
 std::vector<ContactPoint<Dim>> points_of_cuts(const RunData<Dim>& run) {
   std::vector<ContactPoint<Dim>> points;
   for (std::size_t k = 0; k < run.setup.arrangement.cuts.size(); ++k) add_points(run, k, points);
   return points;
 }
 
+template void fit_sides_of_bond<2>(const RunData<2>&, const NeighbourLists&, ContactPoint<2>&);
+template std::optional<ContactPoint<2>> point_of_bond<2>(const RunData<2>&, const NeighbourLists&,
+                                                         const ReleasedBond<2>&);
 template ContactLaw contact_law<2>(const RunData<2>&, double, double);
 template std::vector<ContactPoint<2>> points_of_cuts<2>(const RunData<2>&);
 

@@ -2,17 +2,23 @@
 #pragma once
 
 #include <array>
+#include <concepts>
+#include <limits>
+#include <optional>
+#include <type_traits>
 #include <vector>
 
+#include "bonds.hpp"
 #include "contact_law.hpp"
 #include "run_data.hpp"
 
 namespace fpz::sph::detail {
 
-/// What a place on a face moves with: the mean of these particles, with weights that sum to one.
+/// What a place on a face moves with: the mean of these particles.
 struct FaceSide {
   std::vector<std::size_t> particle;  ///< slots
-  std::vector<double> weight;
+  std::vector<double> weight;         ///< they sum to one
+  std::vector<double> slope;          ///< 1/m, of the weight along the face
 };
 
 template <int Dim>
@@ -20,7 +26,9 @@ struct ContactPoint {
   std::array<FaceSide, 2> side;
   Vec<double, Dim> normal;                               ///< unit, from side 0 to side 1, in the undeformed body
   Vec<double, Dim> at_start = Vec<double, Dim>::Zero();  ///< m, from place 0 to place 1, there
-  double room = 0.0;  ///< m: the gap is the distance of the places along the normal plus this
+  double room = 0.0;           ///< m: the gap is the distance of the places along the normal plus this
+  bool of_crack = false;       ///< its first particles are the ends of a bond that was cut
+  double longest_shift = 0.0;  ///< m: faces that have slid further apart do not meet again
   ContactLaw law;
 
   double slip = 0.0;                                     ///< m
@@ -30,15 +38,32 @@ struct ContactPoint {
   Vec<double, Dim> distance = Vec<double, Dim>::Zero();  ///< m, from place 0 to place 1 at the last kick
 };
 
-/// The state of a point; what it is made of comes from elsewhere.
+template <class Archive, class S>
+void transfer(Archive& archive, S& side) requires std::same_as<std::remove_const_t<S>, FaceSide> {
+  archive(side.particle), archive(side.weight), archive(side.slope);
+}
+
 template <class Archive, class P>
-void transfer_state(Archive& archive, P& point) {
-  archive(point.slip), archive(point.pressure), archive(point.shear), archive(point.force), archive(point.distance);
+void transfer(Archive& archive, P& p) requires std::same_as<std::remove_const_t<P>, ContactPoint<2>> {
+  archive(p.side), archive(p.normal), archive(p.at_start), archive(p.room), archive(p.of_crack),
+      archive(p.longest_shift);
+  archive(p.law.normal_stiffness), archive(p.law.shear_stiffness), archive(p.law.friction);
+  archive(p.slip), archive(p.pressure), archive(p.shear), archive(p.force), archive(p.distance);
 }
 
 /// Law of a face of `area` (m, per metre of thickness) with this coefficient of friction.
 template <int Dim>
 [[nodiscard]] ContactLaw contact_law(const RunData<Dim>& run, double area, double friction);
+
+/// A point for a bond that a crack has cut. Nothing for one that hardly crosses the crack or is longer than to the next
+/// particles.
+template <int Dim>
+[[nodiscard]] std::optional<ContactPoint<Dim>> point_of_bond(const RunData<Dim>& run, const NeighbourLists& lists,
+                                                             const ReleasedBond<Dim>& bond);
+
+/// Finds the sides of such a point again, when bonds of its ends have been cut.
+template <int Dim>
+void fit_sides_of_bond(const RunData<Dim>& run, const NeighbourLists& lists, ContactPoint<Dim>& point);
 
 /// A point for every spacing of the cuts.
 template <int Dim>

@@ -117,13 +117,24 @@ std::vector<int> CrackRows<Dim>::released_by(std::size_t i) const {
 }
 
 template <int Dim>
-long long CrackRows<Dim>::release() {
+ReleasedBond<Dim> CrackRows<Dim>::face_of_bond(std::size_t i, std::size_t j) const {
+  const Particles<Dim>& p = run_.particles;
+  const Vec<double, Dim> r(p.start[0][j] - p.start[0][i], p.start[1][j] - p.start[1][i]);
+  Vec<double, Dim> n = p.point[i].frame.row(0).transpose();
+  if (n.dot(r) < 0.0) n = -n;
+  const Tensor<double, Dim> s = p.stress_of(i);
+  return {i, j, n, s[0] * n[0] * n[0] + s[1] * n[1] * n[1] + 2.0 * s[2] * n[0] * n[1] < 0.0};
+}
+
+template <int Dim>
+long long CrackRows<Dim>::release(std::vector<ReleasedBond<Dim>>& cut) {
   const Particles<Dim>& p = run_.particles;
   std::vector<std::size_t> changed;
   long long count = 0;
   for (std::size_t i = 0; i < p.count; ++i) {
     if (p.kind[i] != kind::cracked || p.point[i].crack.integrity >= run_.setup.options.release_integrity) continue;
     for (const int j : released_by(i)) {
+      cut.push_back(face_of_bond(i, static_cast<std::size_t>(j)));
       rows_.cut(i, j);
       changed.push_back(i);
       changed.push_back(static_cast<std::size_t>(j));

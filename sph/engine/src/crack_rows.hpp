@@ -15,8 +15,8 @@ class CrackRows {
   bool straighten(std::size_t i);
   /// Narrows the rows of particles that have begun to open.
   void narrow();
-  /// Cuts bonds across open cracks (options.release_integrity); how many.
-  long long release();
+  /// Cuts bonds across open cracks (options.release_integrity), and adds them to `cut`; how many.
+  long long release(std::vector<ReleasedBond<Dim>>& cut);
 
   template <class Archive, class Self>
   static void transfer(Archive& archive, Self& self) {
@@ -28,6 +28,8 @@ class CrackRows {
   [[nodiscard]] double lean_of(std::size_t i) const;
   /// Neighbours of a cracked particle beyond its crack, far enough away to let go.
   [[nodiscard]] std::vector<int> released_by(std::size_t i) const;
+  /// The bond from cracked particle i to j as a part of the crack's faces.
+  [[nodiscard]] ReleasedBond<Dim> face_of_bond(std::size_t i, std::size_t j) const;
   /// Writes rows, each once.
   void write(std::vector<std::size_t>& changed);
 

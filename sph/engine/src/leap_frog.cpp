@@ -29,6 +29,8 @@ Outcome Engine<Dim>::step() {
   const Outcome outcome = body->advance();
   if (!outcome.ok()) return outcome;
   if (control) control->advance(run.dt);
+  const std::vector<ReleasedBond<Dim>> released = body->take_released();
+  if (contact && !released.empty()) contact->add(released, body->lists());
   // 2. Forces at n + 1 (eq 20), velocities at n + 3/2 (eq 26).
   kick(run.dt);
   return find_bad();

@@ -52,7 +52,7 @@ Outcome ReferenceBody<Dim>::advance() {
   }
   if (o.release_integrity > 0.0 && run.steps % release_interval == 0) {
     if (follows) crack_rows_.narrow();
-    this->released_ += crack_rows_.release();
+    this->released_ += crack_rows_.release(this->fresh_);
   }
   return outcome;
 }
