@@ -93,7 +93,6 @@ BeamErrors beam_errors(const Run& run) {
   e.stiffness = run.figure("stiffness") / fe.stiffness - 1.0;
   e.notch_stiffness = notch_stiffness(run) / fe.notch_stiffness - 1.0;
   e.work = work_until(end, way, load) / work_until(end, fe.curve.deflection_mid_depth, fe.curve.load) - 1.0;
-  e.energy = run.figure("fracture_energy_ratio") - 1.0;
   return e;
 }
 
