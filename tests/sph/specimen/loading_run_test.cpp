@@ -283,7 +283,8 @@ TEST(LoadingRun, AServoGoesBackWithASnapBack) {
       back = std::max(back, furthest - drive);
   }
   EXPECT_GT(back, 0.03 * furthest);
-  EXPECT_LT(fastest(led.history), 5.0 * rate);
+  // What the servo is too slow for, waves of rows that part, is left to it; without it the notch springs open.
+  EXPECT_LT(fastest(led.history), 0.5 * fastest(jumped.history));
   EXPECT_GT(fastest(jumped.history), 10.0 * rate);
 }
 
