@@ -49,7 +49,7 @@ void Contact<Dim>::find_members() {
   for (const std::size_t i : slots) {
     Member& m = members_.emplace_back(Member{i, Vector::Zero(), Vector::Zero()});
     for (int c = 0; c < Dim; ++c) {
-      if ((prescribed_[i] >> c & 1U) == 0) m.inverse_mass[c] = run_.particles.inverse_mass[i];
+      if ((static_cast<unsigned>(prescribed_[i]) >> c & 1U) == 0) m.inverse_mass[c] = run_.particles.inverse_mass[i];
     }
   }
   places_.assign(points_.size(), {});
