@@ -60,7 +60,7 @@ template <int Dim>
 double BondRows<Dim>::least_moment(std::size_t i) const {
   Full m = {0.0, 0.0, 0.0, 0.0};
   for (const int j : lists_[i]) add_product(m, between(i, static_cast<std::size_t>(j)), vector_of(i, j));
-  const Symmetric square = {m.xx * m.xx + m.yx * m.yx, m.xy * m.xy + m.yy * m.yy, m.xx * m.xy + m.yx * m.yy};
+  const Symmetric square = gram(m);
   const double mean = 0.5 * (square.xx + square.yy), radius = std::hypot(0.5 * (square.xx - square.yy), square.xy);
   return std::sqrt(std::max(0.0, mean - radius)) / run_.particles.volume[i];
 }
@@ -132,9 +132,9 @@ void BondRows<Dim>::write(std::size_t i) {
 }
 
 template <int Dim>
-void BondRows<Dim>::set_lean(std::size_t i, double lean) {
+void BondRows<Dim>::set_lean(std::size_t i, double lean, const Full& correction) {
   leans_[i] = lean;
-  set_correction(i, correction(i));
+  set_correction(i, correction);
 }
 
 /// L_i (I - lean n (x) t), of stress and strain alike, so that the force stays the derivative of the energy.

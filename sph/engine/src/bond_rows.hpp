@@ -46,8 +46,10 @@ class BondRows {
   /// L_i of eq 18.
   [[nodiscard]] Full correction(std::size_t i) const;
   /// The gradient of a crack that the neighbours of a particle see along it, over that across it: derivatives along
-  /// the crack are then taken in the direction t - lean n. Sets L_i.
-  void set_lean(std::size_t i, double lean);
+  /// the crack are then taken in the direction t - lean n. Sets L_i, without it correction().
+  void set_lean(std::size_t i, double lean, const Full& correction);
+  /// Of a row that is to be written.
+  void forget_lean(std::size_t i) { leans_[i] = 0.0; }
 
   /// Leans and narrowed rows; after reading, all rows are to be written.
   template <class Archive, class Self>

@@ -53,23 +53,22 @@ double CrackRows<Dim>::rotation_beside(std::size_t i) const {
 /// g is that in which the gradient, less the elastic one and the rotation beside the crack, is largest. It counts as
 /// far as one direction stands out and the gradient is more than the rock bears elastically.
 template <int Dim>
-double CrackRows<Dim>::lean_of(std::size_t i) const {
-  const RunData<Dim>& run = run_;
-  const Particles<Dim>& p = run.particles;
+double CrackRows<Dim>::lean_of(std::size_t i, const Full& correction) const {
+  const Particles<Dim>& p = run_.particles;
   const Full raw = rows_.sum(i, [&](std::size_t j) {
     return Vec<double, Dim>((p.position[0][j] - p.position[0][i]) - (p.start[0][j] - p.start[0][i]),
                             (p.position[1][j] - p.position[1][i]) - (p.start[1][j] - p.start[1][i]));
   });
-  const Tensor<double, Dim> elastic = elastic_strain<Dim>(run.material.bulk, p.stress_of(i));
-  Full g = product(raw, rows_.correction(i));
+  const Tensor<double, Dim> elastic = elastic_strain<Dim>(run_.material.bulk, p.stress_of(i));
+  Full g = product(raw, correction);
   const double turn = rotation_beside(i);
   g = {g.xx - elastic[0], g.xy - elastic[2] + turn, g.yx - elastic[2] - turn, g.yy - elastic[1]};
-  const Symmetric square = {g.xx * g.xx + g.yx * g.yx, g.xy * g.xy + g.yy * g.yy, g.xx * g.xy + g.yx * g.yy};
+  const Symmetric square = gram(g);
   const double mean = 0.5 * (square.xx + square.yy), half = 0.5 * (square.xx - square.yy);
   const double radius = std::hypot(half, square.xy);
   const double largest = std::sqrt(mean + radius), other = std::sqrt(std::max(0.0, mean - radius));
   const double borne =
-      std::max(run.setup.parameters.tensile_strength / run.setup.parameters.young_modulus,
+      std::max(run_.setup.parameters.tensile_strength / run_.setup.parameters.young_modulus,
                std::sqrt(elastic[0] * elastic[0] + elastic[1] * elastic[1] + 2.0 * elastic[2] * elastic[2]));
   if (!(largest > borne) || !(largest > 2.0 * other)) return 0.0;
   const double angle = 0.5 * std::atan2(square.xy, half);
@@ -87,7 +86,8 @@ bool CrackRows<Dim>::straighten(std::size_t i) {
   // Only while the crack grows: a row that followed the vibrations of a crack would feed them.
   if (integrity < CrackBands<Dim>::least_integrity || integrity > grown * straightened_[i]) return false;
   straightened_[i] = integrity;
-  rows_.set_lean(i, lean_of(i));
+  const Full correction = rows_.correction(i);
+  rows_.set_lean(i, lean_of(i, correction), correction);
   return true;
 }
 
@@ -127,10 +127,9 @@ ReleasedBond<Dim> CrackRows<Dim>::face_of_bond(std::size_t i, std::size_t j) con
 }
 
 template <int Dim>
-long long CrackRows<Dim>::release(std::vector<ReleasedBond<Dim>>& cut) {
+void CrackRows<Dim>::release(std::vector<ReleasedBond<Dim>>& cut) {
   const Particles<Dim>& p = run_.particles;
   std::vector<std::size_t> changed;
-  long long count = 0;
   for (std::size_t i = 0; i < p.count; ++i) {
     if (p.kind[i] != kind::cracked || p.point[i].crack.integrity >= run_.setup.options.release_integrity) continue;
     for (const int j : released_by(i)) {
@@ -138,15 +137,13 @@ long long CrackRows<Dim>::release(std::vector<ReleasedBond<Dim>>& cut) {
       rows_.cut(i, j);
       changed.push_back(i);
       changed.push_back(static_cast<std::size_t>(j));
-      ++count;
     }
   }
   for (const std::size_t i : changed) {
     // The bonds that are left see less of the crack, or none of it.
-    if (p.point[i].crack.integrity < run_.setup.options.release_integrity) rows_.set_lean(i, 0.0);
+    if (p.point[i].crack.integrity < run_.setup.options.release_integrity) rows_.forget_lean(i);
   }
   write(changed);
-  return count;
 }
 
 template class CrackRows<2>;

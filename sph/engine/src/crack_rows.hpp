@@ -15,8 +15,8 @@ class CrackRows {
   bool straighten(std::size_t i);
   /// Narrows the rows of particles that have begun to open.
   void narrow();
-  /// Cuts bonds across open cracks (options.release_integrity), and adds them to `cut`; how many.
-  long long release(std::vector<ReleasedBond<Dim>>& cut);
+  /// Cuts bonds across open cracks (options.release_integrity), and adds them to `cut`.
+  void release(std::vector<ReleasedBond<Dim>>& cut);
 
   template <class Archive, class Self>
   static void transfer(Archive& archive, Self& self) {
@@ -25,7 +25,7 @@ class CrackRows {
 
  private:
   [[nodiscard]] double rotation_beside(std::size_t i) const;
-  [[nodiscard]] double lean_of(std::size_t i) const;
+  [[nodiscard]] double lean_of(std::size_t i, const Full& correction) const;
   /// Neighbours of a cracked particle beyond its crack, far enough away to let go.
   [[nodiscard]] std::vector<int> released_by(std::size_t i) const;
   /// The bond from cracked particle i to j as a part of the crack's faces.

@@ -19,6 +19,11 @@ FPZ_LANE Full product(const Full& a, const Full& b) {
   return {a.xx * b.xx + a.xy * b.yx, a.xx * b.xy + a.xy * b.yy, a.yx * b.xx + a.yy * b.yx, a.yx * b.xy + a.yy * b.yy};
 }
 
+/// A^T A.
+FPZ_LANE Symmetric gram(const Full& a) {
+  return {a.xx * a.xx + a.yx * a.yx, a.xy * a.xy + a.yy * a.yy, a.xx * a.xy + a.yx * a.yy};
+}
+
 /// Rotation R and stretch U - I of F = R U = I + b, without cancellation for small b (row-major components).
 struct Stretch {
   double cosine, sine;
@@ -77,8 +82,7 @@ FPZ_LANE Symmetric correction_of(const Symmetric& a) { return inverse_above(a, m
 
 /// Inverse of any moment matrix A as (A^T A)^-1 A^T, with the same floor.
 FPZ_LANE Full correction_of(const Full& a) {
-  const Symmetric square = {a.xx * a.xx + a.yx * a.yx, a.xy * a.xy + a.yy * a.yy, a.xx * a.xy + a.yx * a.yy};
-  const Symmetric b = inverse_above(square, moment_floor * moment_floor);
+  const Symmetric b = inverse_above(gram(a), moment_floor * moment_floor);
   return {b.xx * a.xx + b.xy * a.xy, b.xx * a.yx + b.xy * a.yy, b.xy * a.xx + b.yy * a.xy, b.xy * a.yx + b.yy * a.yy};
 }
 

@@ -52,7 +52,9 @@ Outcome ReferenceBody<Dim>::advance() {
   }
   if (o.release_integrity > 0.0 && run.steps % release_interval == 0) {
     if (follows) crack_rows_.narrow();
-    this->released_ += crack_rows_.release(this->fresh_);
+    const std::size_t before = this->fresh_.size();
+    crack_rows_.release(this->fresh_);
+    this->released_ += static_cast<long long>(this->fresh_.size() - before);
   }
   return outcome;
 }
