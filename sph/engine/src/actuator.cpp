@@ -1,6 +1,19 @@
 #include "actuator.hpp"
 
+#include <cmath>
+#include <limits>
+
 namespace fpz::sph::detail {
+
+std::optional<double> Actuator::start_velocity() const {
+  if (drive.kind != Drive::Kind::velocity || yields()) return std::nullopt;
+  return drive.table.at(0.0);
+}
+
+double Actuator::stable_step(double mass) const {
+  if (!(drive.machine_stiffness > 0.0)) return std::numeric_limits<double>::infinity();
+  return 2.0 * std::sqrt(mass / drive.machine_stiffness);
+}
 
 void Actuator::advance(double now, double step, double past, double group_velocity) {
   stretch += past * (drive_velocity - group_velocity);

@@ -12,6 +12,10 @@ struct Actuator {
   double drive_velocity = 0.0;  ///< from n to n + 1, m/s
 
   [[nodiscard]] bool yields() const { return drive.yields(); }
+  /// Velocity that a group has from the start on, m/s; nothing when it sets out from rest.
+  [[nodiscard]] std::optional<double> start_velocity() const;
+  /// Longest time step of the machine with a mass (kg) behind it, s.
+  [[nodiscard]] double stable_step(double mass) const;
   /// To n, where the drive sets out for n + 1; the group has moved at `group_velocity` (m/s) for `past` (s).
   void advance(double now, double step, double past, double group_velocity);
   /// On a group that yields, at n, N.

@@ -1,6 +1,5 @@
 #include "bonded_platen.hpp"
 
-#include <cmath>
 #include <stdexcept>
 
 namespace fpz::sph::detail {
@@ -14,12 +13,11 @@ BondedPlaten<Dim>::BondedPlaten(RunData<Dim>& run, std::size_t group)
     const std::optional<Drive>& drive = run.setup.groups[group].drive[c];
     if (!drive) continue;
     actuator_[c] = Actuator{*drive};
-    const bool moves = drive->kind == Drive::Kind::velocity && !drive->yields();
-    const double velocity = moves ? drive->table.at(0.0) : 0.0;
-    velocity_[static_cast<int>(c)] = velocity;
+    const std::optional<double> velocity = actuator_[c]->start_velocity();
+    velocity_[static_cast<int>(c)] = velocity.value_or(0.0);
     for (const std::size_t i : slots_) {
       run.damping[c][i] = 0.0;
-      if (moves) p.velocity[c][i] = velocity;
+      if (velocity) p.velocity[c][i] = *velocity;
     }
   }
 }
@@ -37,7 +35,6 @@ double BondedPlaten<Dim>::next_velocity(std::size_t c, double step) const {
 template <int Dim>
 void BondedPlaten<Dim>::act(double step) {
   RunData<Dim>& run = this->run_;
-  Particles<Dim>& p = run.particles;
   const Vec<double, Dim> old_reaction = reaction_;
   const Vec<double, Dim> old_velocity = velocity_;
   reaction_.setZero();
@@ -46,12 +43,7 @@ void BondedPlaten<Dim>::act(double step) {
     const auto k = static_cast<int>(c);
     actuator_[c]->advance(run.now(), run.dt, run.started ? run.dt : 0.0, velocity_[k]);
     velocity_[k] = next_velocity(c, step);
-    for (const std::size_t i : slots_) {
-      const double lacking = (velocity_[k] - p.velocity[c][i]) / step;
-      reaction_[k] += p.mass[i] * lacking;
-      p.acceleration[c][i] += lacking;
-      p.velocity[c][i] = velocity_[k];
-    }
+    for (const std::size_t i : slots_) reaction_[k] += this->impose(i, c, velocity_[k], step);
   }
   // Trapezoidal in the force: the work that makes the leap-frog's energy exact for an elastic body.
   if (run.started) run.ledger.external += 0.5 * run.dt * (old_reaction + reaction_).dot(old_velocity);
@@ -82,9 +74,7 @@ template <int Dim>
 double BondedPlaten<Dim>::stable_step() const {
   double limit = std::numeric_limits<double>::infinity();
   for (const auto& a : actuator_) {
-    if (a && a->drive.machine_stiffness > 0.0) {
-      limit = std::min(limit, 2.0 * std::sqrt(mass_ / a->drive.machine_stiffness));
-    }
+    if (a) limit = std::min(limit, a->stable_step(mass_));
   }
   return limit;
 }

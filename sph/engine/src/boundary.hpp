@@ -47,6 +47,16 @@ class Boundary {
   virtual void load(Reader& archive) = 0;
 
  protected:
+  /// Gives a component of a particle the velocity (m/s) that it has at n + 1/2; the force which that takes over `step`
+  /// (s) on top of what acts, N.
+  double impose(std::size_t slot, std::size_t component, double velocity, double step) {
+    Particles<Dim>& p = run_.particles;
+    const double lacking = (velocity - p.velocity[component][slot]) / step;
+    p.acceleration[component][slot] += lacking;
+    p.velocity[component][slot] = velocity;
+    return p.mass[slot] * lacking;
+  }
+
   RunData<Dim>& run_;
 };
 

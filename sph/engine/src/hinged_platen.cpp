@@ -1,7 +1,6 @@
 #include "hinged_platen.hpp"
 
 #include <Eigen/LU>
-#include <cmath>
 
 namespace fpz::sph::detail {
 
@@ -11,9 +10,7 @@ HingedPlaten<Dim>::HingedPlaten(RunData<Dim>& run, std::size_t group)
   const Group<Dim>& g = run.setup.groups[group];
   for (std::size_t c = 0; c < run.dimensions; ++c) {
     actuator_[c].drive = g.drive[c] ? *g.drive[c] : Drive{Drive::Kind::force, TimeTable::constant(0.0)};
-    if (g.drive[c] && g.drive[c]->kind == Drive::Kind::velocity && !g.drive[c]->yields()) {
-      motion_[static_cast<int>(c)] = g.drive[c]->table.at(0.0);
-    }
+    motion_[static_cast<int>(c)] = actuator_[c].start_velocity().value_or(0.0);
   }
   for (const std::size_t i : slots_) {
     mass_ += run.particles.mass[i];
@@ -55,7 +52,6 @@ auto HingedPlaten<Dim>::rigid_motion(const Vec<double, Dim>& impulse,
 template <int Dim>
 void HingedPlaten<Dim>::act(double step) {
   RunData<Dim>& run = this->run_;
-  Particles<Dim>& p = run.particles;
   const Vec<double, Dim> old_reaction = reaction_, old_velocity = velocity();
   const double past = run.started ? run.dt : 0.0;
   hinge_ += past * old_velocity;
@@ -76,10 +72,7 @@ void HingedPlaten<Dim>::act(double step) {
     const Vec<double, Dim> own = velocity_at(i, motion_);
     for (std::size_t c = 0; c < run.dimensions; ++c) {
       const auto k = static_cast<int>(c);
-      const double lacking = (own[k] - p.velocity[c][i]) / step;
-      reaction_[k] += p.mass[i] * lacking;
-      p.acceleration[c][i] += lacking;
-      p.velocity[c][i] = own[k];
+      reaction_[k] += this->impose(i, c, own[k], step);
     }
   }
   // As for bonded platens; without a moment the rotation takes no work.
@@ -105,11 +98,7 @@ void HingedPlaten<Dim>::hold() {
 template <int Dim>
 double HingedPlaten<Dim>::stable_step() const {
   double limit = std::numeric_limits<double>::infinity();
-  for (const Actuator& a : actuator_) {
-    if (a.drive.machine_stiffness > 0.0) {
-      limit = std::min(limit, 2.0 * std::sqrt(0.25 * mass_ / a.drive.machine_stiffness));
-    }
-  }
+  for (const Actuator& a : actuator_) limit = std::min(limit, a.stable_step(0.25 * mass_));
   return limit;
 }
 
