@@ -1,10 +1,11 @@
 #include "contact_point.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <utility>
+
+#include "fpz/sph/linear_fit.hpp"
 
 namespace fpz::sph::detail {
 
@@ -40,26 +41,19 @@ Vec2 start_of(const RunData<2>& run, std::size_t i) { return {run.particles.star
 std::optional<FaceSide> fitted_side(const RunData<2>& run, const Vec2& x, const Vec2& along,
                                     const std::vector<std::size_t>& particles) {
   constexpr double most = 4.0;  // sum of the sizes of the weights; two rows have 2, or 3 at the end of a face
-  const double spacing = run.setup.arrangement.spacing;
-  FaceSide side{particles, {}, {}};
-  std::vector<Eigen::Vector3d> terms;
-  Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
+  const double length = reach * run.setup.arrangement.spacing;
+  std::vector<Vec2> seen;
+  std::vector<double> volume;
   for (const std::size_t i : particles) {
-    const Vec2 r = (start_of(run, i) - x) / spacing;
-    const double bell = std::max(0.0, 1.0 - r.squaredNorm() / (reach * reach));
-    const Eigen::Vector3d place(1.0, r[0], r[1]);
-    terms.push_back(bell * bell * run.particles.volume[i] / (spacing * spacing) * place);
-    moments += terms.back() * place.transpose();
+    seen.emplace_back((start_of(run, i) - x) / length);
+    volume.push_back(run.particles.volume[i]);
   }
-  const Eigen::FullPivLU<Eigen::Matrix3d> factors(moments);
-  if (!factors.isInvertible()) return std::nullopt;
-  const Eigen::Vector3d value = factors.solve(Eigen::Vector3d::UnitX());
-  const Eigen::Vector3d slope = factors.solve(Eigen::Vector3d(0.0, along[0], along[1]) / spacing);
+  const LinearFit fit(seen, volume);
+  if (!fit.is_determined()) return std::nullopt;
+  FaceSide side{particles, fit.weights(Eigen::Vector3d::UnitX()),
+                fit.weights(Eigen::Vector3d(0.0, along[0], along[1]) / length)};
   double size = 0.0;
-  for (const Eigen::Vector3d& t : terms) {
-    size += std::abs(side.weight.emplace_back(t.dot(value)));
-    side.slope.push_back(t.dot(slope));
-  }
+  for (const double w : side.weight) size += std::abs(w);
   return size < most ? std::optional(side) : std::nullopt;
 }
 

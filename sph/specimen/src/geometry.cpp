@@ -104,6 +104,12 @@ std::vector<std::vector<Point>> outlines(const Shape& shape, int pieces) {
 
 }  // namespace
 
+Point nearest_on(const Point& a, const Point& b, const Point& x) {
+  const Point d = b - a;
+  const double square = d.squaredNorm();
+  return square > 0.0 ? Point(a + std::clamp((x - a).dot(d) / square, 0.0, 1.0) * d) : a;
+}
+
 bool contains(const Shape& shape, const Point& x) {
   for (const auto& [left, right] : chord(shape, x[1])) {
     if (x[0] >= left && x[0] <= right) return true;

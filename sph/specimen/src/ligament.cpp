@@ -19,8 +19,6 @@ struct Piece {
 };
 using Line = std::vector<Piece>;
 
-double cross(const Point& a, const Point& b) { return a[0] * b[1] - a[1] * b[0]; }
-
 Point normal_of(const Point& a, const Point& b) {
   const Point d = (b - a).normalized();
   return {-d[1], d[0]};
@@ -103,7 +101,7 @@ Ligament ahead(const Point& from, const Point& direction, const std::vector<Line
   for (const Line& line : faces) {
     for (const Piece& p : line) {
       const Point d = p.b - p.a;
-      const Point foot = p.a + std::clamp((from - p.a).dot(d) / d.squaredNorm(), 0.0, 1.0) * d;
+      const Point foot = nearest_on(p.a, p.b, from);
       const Point way = foot - from;
       const double distance = way.norm();
       if (distance <= near * d.norm() || distance >= best.width) continue;

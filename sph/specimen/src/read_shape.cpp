@@ -50,9 +50,7 @@ std::optional<Shape> read_ring(const InputReader& r, const Place& place) {
 }
 
 /// Which way the triangle a, b, c turns: > 0 counter-clockwise.
-double turn(const Point& a, const Point& b, const Point& c) {
-  return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-}
+double turn(const Point& a, const Point& b, const Point& c) { return cross(b - a, c - a); }
 
 bool cross_each_other(const Point& a, const Point& b, const Point& c, const Point& d) {
   return turn(a, b, c) * turn(a, b, d) < 0.0 && turn(c, d, a) * turn(c, d, b) < 0.0;

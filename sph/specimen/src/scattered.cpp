@@ -37,11 +37,6 @@ class Random {
   std::mt19937_64 engine_;
 };
 
-Point nearest_on(const Point& a, const Point& b, const Point& x) {
-  const Point d = b - a;
-  return a + std::clamp((x - a).dot(d) / d.squaredNorm(), 0.0, 1.0) * d;
-}
-
 /// Surfaces and cuts, in short pieces.
 class Walls {
  public:

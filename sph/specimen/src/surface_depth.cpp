@@ -7,22 +7,12 @@
 namespace fpz::specimen::detail {
 namespace {
 
-double cross(const Point& a, const Point& b) { return a[0] * b[1] - a[1] * b[0]; }
-
 /// Calls f(p, q) for every straight piece of the outlines of shape and holes.
 template <class F>
 void for_pieces(const Body& body, F&& f) {
   for (const std::vector<Point>& line : outlines(without_notches(body))) {
     for (std::size_t k = 0; k + 1 < line.size(); ++k) f(line[k], line[k + 1]);
   }
-}
-
-/// The point of the straight piece from p to q that is nearest to x.
-Point foot_on(const Point& p, const Point& q, const Point& x) {
-  const Point d = q - p;
-  const double square = d.squaredNorm();
-  const double along = square > 0.0 ? std::clamp((x - p).dot(d) / square, 0.0, 1.0) : 0.0;
-  return p + along * d;
 }
 
 }  // namespace
@@ -33,7 +23,7 @@ Point nearest_on_surface(const Body& body, const Point& x) {
   Point nearest = x;
   double least = std::numeric_limits<double>::infinity();
   for_pieces(body, [&](const Point& p, const Point& q) {
-    const Point foot = foot_on(p, q, x);
+    const Point foot = nearest_on(p, q, x);
     const double distance = (x - foot).norm();
     if (distance < least) least = distance, nearest = foot;
   });
@@ -43,7 +33,7 @@ Point nearest_on_surface(const Body& body, const Point& x) {
 double distance_to(const std::vector<Point>& line, const Point& x) {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k + 1 < line.size(); ++k) {
-    least = std::min(least, (x - foot_on(line[k], line[k + 1], x)).norm());
+    least = std::min(least, (x - nearest_on(line[k], line[k + 1], x)).norm());
   }
   return least;
 }

@@ -1,12 +1,12 @@
 #include "fpz/specimen/surface_shares.hpp"
 
-#include <Eigen/LU>
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
+#include "fpz/sph/linear_fit.hpp"
 #include "point_grid.hpp"
 
 namespace fpz::specimen {
@@ -54,22 +54,20 @@ double bell(const Point& seen) { return std::pow(std::max(0.0, 1.0 - seen.square
 /// Adds what is linear in the place times a bell and the volume to the weights, so that their sum and moment are those
 /// of the piece.
 void balance(SurfacePiece& piece, const sph::Arrangement<2>& a) {
-  std::vector<Eigen::Vector3d> terms;
-  Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
+  std::vector<Point> seen;
+  std::vector<double> volume;
   Eigen::Vector3d lacking = Eigen::Vector3d::UnitX();
   for (const SurfacePiece::Share& s : piece.shares) {
-    const Point x = seen_from(piece, a.position[s.particle], a.spacing);
-    const Eigen::Vector3d place(1.0, x[0], x[1]);
-    terms.push_back(bell(x) * a.volume[s.particle] / (a.spacing * a.spacing) * place);
-    moments += terms.back() * place.transpose();
-    lacking -= s.weight * place;
+    const Point x = seen.emplace_back(seen_from(piece, a.position[s.particle], a.spacing));
+    volume.push_back(a.volume[s.particle]);
+    lacking -= s.weight * Eigen::Vector3d(1.0, x[0], x[1]);
   }
-  const Eigen::FullPivLU<Eigen::Matrix3d> factors(moments);
-  if (terms.size() < 3 || !factors.isInvertible()) {
+  const sph::LinearFit fit(seen, volume);
+  if (!fit.is_determined()) {
     throw std::invalid_argument("a load acts on a surface where there are no particles to take it");
   }
-  const Eigen::Vector3d constants = factors.solve(lacking);
-  for (std::size_t n = 0; n < terms.size(); ++n) piece.shares[n].weight += terms[n].dot(constants);
+  const std::vector<double> more = fit.weights(lacking);
+  for (std::size_t n = 0; n < more.size(); ++n) piece.shares[n].weight += more[n];
 }
 
 /// Particles whose area vectors are those of the pieces alone.
@@ -85,9 +83,8 @@ std::vector<bool> undisturbed(const std::vector<SurfacePiece>& pieces, const sph
     if (!yes[i]) continue;
     grid.near(a.position[i], radius, [&](std::size_t) { yes[i] = false; });
     for (const sph::Cut<2>& cut : a.cuts) {
-      const Point d = cut.corner[1] - cut.corner[0], x = a.position[i] - cut.corner[0];
-      const double t = std::clamp(x.dot(d) / d.squaredNorm(), 0.0, 1.0);
-      if ((x - t * d).norm() < radius) yes[i] = false;
+      const Point& x = a.position[i];
+      if ((x - nearest_on(cut.corner[0], cut.corner[1], x)).norm() < radius) yes[i] = false;
     }
   }
   return yes;

@@ -52,6 +52,11 @@ struct Body {
   std::vector<Notch> notches;
 };
 
+/// Twice the area of the triangle 0, a, b: positive when it is counter-clockwise.
+[[nodiscard]] inline double cross(const Point& a, const Point& b) { return a[0] * b[1] - a[1] * b[0]; }
+/// The point of the straight piece from a to b that is nearest to x.
+[[nodiscard]] Point nearest_on(const Point& a, const Point& b, const Point& x);
+
 [[nodiscard]] bool contains(const Shape& shape, const Point& x);
 /// In the shape, and in no hole and no slot.
 [[nodiscard]] bool contains(const Body& body, const Point& x);
