@@ -18,7 +18,7 @@ double next_velocity(const ServoControl& control, double measured, double time_s
   constexpr double integral_times = 4.0;  // time constants: critically damped, about, where the gauge follows at once
   const Servo& s = control.servo;
   if (!state.begun) state = {true, 0.0, measured, 0.0};
-  const double grown = sph::TimeTable::rise(0.0, 1.0, s.ramp).at(state.time);
+  const double grown = control.growth.at(state.time);
   const double lacking = state.target - measured;
   const double tau = control.time_constant;
   const double wanted = s.speed * (grown + (lacking + state.sum / (integral_times * tau)) / (s.rate * tau));

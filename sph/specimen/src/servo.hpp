@@ -11,6 +11,7 @@ struct ServoControl {
   std::size_t group = 0, component = 0;
   BoundGauge gauge;
   double time_constant = 0.0;  ///< s
+  sph::TimeTable growth;       ///< of the rate, from 0 to 1 within its ramp
 };
 
 /// What a servo remembers, all zero at the begin of its stage. In units of its gauge.

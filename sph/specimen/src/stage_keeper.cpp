@@ -34,7 +34,8 @@ void StageKeeper::find_servos() {
     for (std::size_t c = 0; c < 2; ++c) {
       if (!drive_[g][c] || !drive_[g][c]->servo) continue;
       const Servo& servo = *drive_[g][c]->servo;
-      servos_.push_back({servo, g, c, specimen_.gauges.at(servo.gauge), time_constant(servo, scene_)});
+      servos_.push_back({servo, g, c, specimen_.gauges.at(servo.gauge), time_constant(servo, scene_),
+                         sph::TimeTable::rise(0.0, 1.0, servo.ramp)});
     }
   }
   state_.servos.assign(servos_.size(), {});
@@ -92,6 +93,14 @@ void StageKeeper::judge_start(double present, const TimeCourse& course, const st
                             ", the first value of its table; {\"value\", \"ramp\"} begins with what is there");
 }
 
+void StageKeeper::take_over(const Stage& next) {
+  for (const auto& [g, drive] : next.boundaries) {
+    for (std::size_t c = 0; c < 2; ++c) {
+      if (drive[c]) drive_[g][c] = drive[c];
+    }
+  }
+}
+
 void StageKeeper::change(sph::Simulation<2>& run, const Stage& next) {
   for (const auto& [g, drive] : next.boundaries) {
     for (std::size_t c = 0; c < 2; ++c) {
@@ -101,9 +110,9 @@ void StageKeeper::change(sph::Simulation<2>& run, const Stage& next) {
       if (drive[c]->kind == sph::Drive::Kind::force) judge_start(force, drive[c]->course, scene_.boundaries[g].name);
       run.set_drive(g, c, drive[c]->starting(run.time(), velocity, force, scene_.thickness));
       run.steer(g, c, velocity);
-      drive_[g][c] = drive[c];
     }
   }
+  take_over(next);
   for (const auto& [k, course] : next.loads) {
     judge_start(run.factor(k), course, scene_.loads[k].name);
     run.set_factor(k, course.starting(run.time(), run.factor(k)));
@@ -112,13 +121,7 @@ void StageKeeper::change(sph::Simulation<2>& run, const Stage& next) {
 }
 
 void StageKeeper::restore(StageState state) {
-  for (std::size_t n = 1; n <= state.index; ++n) {
-    for (const auto& [g, drive] : scene_.stages[n].boundaries) {
-      for (std::size_t c = 0; c < 2; ++c) {
-        if (drive[c]) drive_[g][c] = drive[c];
-      }
-    }
-  }
+  for (std::size_t n = 1; n <= state.index; ++n) take_over(scene_.stages[n]);
   find_servos();
   state_ = std::move(state);
 }

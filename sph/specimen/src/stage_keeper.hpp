@@ -56,6 +56,8 @@ class StageKeeper {
   [[nodiscard]] const Stage& stage() const { return scene_.stages[state_.index]; }
   void begin_next(sph::Simulation<2>& run, std::size_t rows);
   void change(sph::Simulation<2>& run, const Stage& next);
+  /// How the boundaries are driven from that stage on.
+  void take_over(const Stage& next);
   /// The servos of a stage: of the boundaries as they are driven in it.
   void find_servos();
   void judge_start(double present, const TimeCourse& course, const std::string& who);
