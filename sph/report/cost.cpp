@@ -154,14 +154,11 @@ void write_cost(std::ostream& out, const Results& r, const Gallery& gallery) {
   const std::vector<Point> points = collect(r);
   if (points.empty()) return;
   out << "\nThe notched beam with the cohesion raised and H = `band`, rollers of one column. Errors of the peak and of "
-         "the "
-         "work of\nthe load, to the deflection that both reach: against finite elements with pressures of the same "
-         "width. "
-         "Seconds are\nparticle-steps divided by the best rate of all runs that share configuration, kernel and "
+         "the work of\nthe load, to the deflection that both reach: against finite elements with pressures of the same "
+         "width. Seconds are\nparticle-steps divided by the best rate of all runs that share configuration, kernel and "
          "integrator, because other programs\nran on the machine. Runs that failed, whose energy balance drifts by "
-         "more "
-         "than 1 % of the\nwork, or whose kinetic energy exceeds 2 % of the internal one before the peak are in the "
-         "table and the picture but are\nneither recommended nor on the line.\n";
+         "more than 1 % of the\nwork, or whose kinetic energy exceeds 2 % of the internal one before the peak are in "
+         "the table and the picture but are\nneither recommended nor on the line.\n";
   std::vector<Row> rows;
   const auto by_peak = front(points, peak_error), by_work = front(points, work_error);
   const auto on = [](const std::vector<const Point*>& list, const Point& p) {

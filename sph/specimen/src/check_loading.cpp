@@ -8,8 +8,6 @@
 namespace fpz::specimen::detail {
 namespace {
 
-constexpr std::array<std::string_view, 2> component_names = {"x", "y"};
-
 /// What drives one component of a boundary until the end of the run.
 struct Course {
   bool forced = false;     ///< by a force; its motion is not known before

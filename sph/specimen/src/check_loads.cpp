@@ -5,8 +5,6 @@
 namespace fpz::specimen::detail {
 namespace {
 
-constexpr std::array<std::string_view, 2> component_names = {"x", "y"};
-
 /// Small loads are no mistake by themselves; one that is far off, and usual in another unit, hardly was meant.
 void judge_load(const SceneCheck& c, const Place& stated, std::string_view what, double si,
                 const io::Typical& typical) {

@@ -9,7 +9,6 @@ namespace {
 using Form = TimeCourse::Form;
 using DriveKind = sph::Drive::Kind;
 
-constexpr std::array<std::string_view, 2> components = {"x", "y"};
 constexpr int most_cycles = 10'000;
 
 void read_rise(const InputReader& r, const Place& p, std::string_view value_key, TimeCourse& c) {
@@ -107,9 +106,9 @@ Actuation read_actuation(const InputReader& r, const Place& p, const ActuationKe
 void read_machine(const InputReader& r, const Place& boundary, Actuations& drive) {
   with(boundary, "machine_stiffness", [&](const Place& p) {
     if (!r.object(p, "the stiffness (N/m) of the driven components, \"x\" or \"y\"")) return;
-    r.known_keys(p, components);
+    r.known_keys(p, component_names);
     for (std::size_t c = 0; c < 2; ++c) {
-      with(p, components[c], [&](const Place& q) {
+      with(p, component_names[c], [&](const Place& q) {
         const double stiffness = r.positive(q).value_or(0.0);
         if (!drive[c] || drive[c]->kind == DriveKind::force) {
           r.problem(q, "this component has no velocity or displacement that a machine could pass on");
@@ -120,10 +119,6 @@ void read_machine(const InputReader& r, const Place& boundary, Actuations& drive
     }
   });
 }
-
-}  // namespace
-
-namespace {
 
 bool is_one_of(const JsonValue& v, std::span<const std::string_view> words) {
   return v.is(JsonValue::Kind::string) && std::find(words.begin(), words.end(), v.text) != words.end();
@@ -176,9 +171,9 @@ bool read_actuations(const InputReader& r, const Place& boundary, const Actuatio
     with(boundary, k.key, [&](const Place& p) {
       any = true;
       if (!r.object(p, "the driven components, \"x\" or \"y\" (the others are free)")) return;
-      r.known_keys(p, components);
+      r.known_keys(p, component_names);
       for (std::size_t c = 0; c < 2; ++c) {
-        with(p, components[c], [&](const Place& q) {
+        with(p, component_names[c], [&](const Place& q) {
           if (read[c])
             r.problem(q, "this component is driven twice: by one of \"velocity\", \"displacement\" and \"force\"");
           read[c] = read_actuation(r, q, k, rules);

@@ -12,7 +12,6 @@ constexpr std::array<std::string_view, 9> part_keys = {"outside", "hole",   "not
 constexpr const char* part_content =
     "\"all\", \"outside\", or an object with \"hole\", \"notch\", \"low\" and \"high\", \"corners\", or \"centre\", "
     "\"from_deg\" and \"to_deg\"";
-constexpr double degree = std::numbers::pi / 180.0;
 
 /// Holes of a scene; that of a ring comes after those of "holes".
 std::size_t hole_count(const Scene& scene) {

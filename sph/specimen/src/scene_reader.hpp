@@ -15,6 +15,8 @@ using io::JsonValue;
 using io::Place;
 
 inline constexpr std::size_t longest_name = 200;
+/// Keys of the components of a vector that a scene states one by one.
+inline constexpr std::array<std::string_view, 2> component_names = {"x", "y"};
 
 /// Calls f(place) for a member when it is there.
 template <class F>
