@@ -392,18 +392,25 @@ TEST(LoadingRun, AnInitialStressIsInBalanceAndIsLetGo) {
   }
 }
 
+/// Boundaries: platens below and above, at -y and y, with keys in common, the upper one driven along y; and the gauges
+/// of a test that presses, the object still open for others.
+std::string pressing(const std::string& y, const std::string& platen, const std::string& driven) {
+  return R"("boundaries": [
+      {"name": "base", "at": [0, -)" +
+         y + R"(], "direction": [0, -1], )" + platen + R"("velocity": {"x": 0, "y": 0}},
+      {"name": "top", "at": [0, )" +
+         y + R"(], "direction": [0, 1], )" + platen + R"("velocity": {"x": 0}, )" + driven +
+         R"(}],
+    "gauges": {"load": {"force_on": "top", "direction": [0, -1]}, "support": {"force_on": "base", "direction": [0, 1]},
+      "deflection": {"displacement_of": "top", "relative_to": "base", "direction": [0, -1]})";
+}
+
 /// Between platens without friction a plate has one stress everywhere, and the stiffness of a bar.
 TEST(LoadingRun, PlatensWithoutFrictionPressEvenly) {
   const auto pressed = [&](const char* friction, const std::string& name) {
     const std::string platen = std::string(R"("width": 0.02, )") + friction;
-    const RunResult r = run(plate(R"("boundaries": [
-        {"name": "base", "at": [0, -0.03], "direction": [0, -1], )" +
-                                      platen + R"("velocity": {"x": 0, "y": 0}},
-        {"name": "top", "at": [0, 0.03], "direction": [0, 1], )" +
-                                      platen + R"("velocity": {"x": 0},
-         "displacement": {"y": {"value": -30e-6, "ramp": 1e-3}}}],
-      "gauges": {"load": {"force_on": "top", "direction": [0, -1]}, "support": {"force_on": "base", "direction": [0, 1]},
-        "deflection": {"displacement_of": "top", "relative_to": "base", "direction": [0, -1]},
+    const std::string driven = R"("displacement": {"y": {"value": -30e-6, "ramp": 1e-3}})";
+    const RunResult r = run(plate(pressing("0.03", platen, driven) + R"(,
         "edge_xx": {"stress": "xx", "of": {"point": [0, 0.028], "radius": 0.002}},
         "edge_yy": {"stress": "yy", "of": {"low": [-0.01, 0.024], "high": [0.01, 0.03]}}},
       "method": {"damping": 0.3}, "stop": {"time": 2e-3},
@@ -426,13 +433,8 @@ TEST(LoadingRun, PlatensWithoutFrictionPressEvenly) {
 /// pressure, and takes no more.
 TEST(LoadingRun, ContactOfPlatensUnderAForceKeepsItsEnergy) {
   for (const char* hinge : {"", R"("hinge": true, )"}) {
-    const RunResult r = run(plate(std::string(R"("boundaries": [
-        {"name": "base", "at": [0, -0.03], "direction": [0, -1], "width": 0.02, "friction": 0,
-         "velocity": {"x": 0, "y": 0}},
-        {"name": "top", "at": [0, 0.03], "direction": [0, 1], "width": 0.02, "friction": 0, )") +
-                                      hinge + R"("velocity": {"x": 0}, "force": {"y": {"value": -20e3, "ramp": 1e-3}}}],
-      "gauges": {"load": {"force_on": "top", "direction": [0, -1]}, "support": {"force_on": "base", "direction": [0, 1]},
-        "deflection": {"displacement_of": "top", "relative_to": "base", "direction": [0, -1]}},
+    const std::string driven = std::string(hinge) + R"("force": {"y": {"value": -20e3, "ramp": 1e-3}})";
+    const RunResult r = run(plate(pressing("0.03", R"("width": 0.02, "friction": 0, )", driven) + R"(},
       "method": {"damping": 0.3}, "stop": {"time": 2e-3},
       "output": {"frames": 0, "pictures": false, "history_rows": 100})",
                                   upright),
@@ -453,14 +455,8 @@ TEST(LoadingRun, ContactOfPlatensUnderAForceKeepsItsEnergy) {
 TEST(LoadingRun, FlatPlatensAndJawsPressADisc) {
   const auto centre = [&](const std::string& fit) {
     const std::string platen = R"("width": 0.024, "friction": 0.2, )" + fit;
-    const RunResult r = run(plate(R"("boundaries": [
-        {"name": "base", "at": [0, -0.025], "direction": [0, -1], )" +
-                                      platen + R"("velocity": {"x": 0, "y": 0}},
-        {"name": "top", "at": [0, 0.025], "direction": [0, 1], )" +
-                                      platen + R"("velocity": {"x": 0},
-         "displacement": {"y": {"value": -100e-6, "ramp": 2e-3}}}],
-      "gauges": {"load": {"force_on": "top", "direction": [0, -1]}, "support": {"force_on": "base", "direction": [0, 1]},
-        "deflection": {"displacement_of": "top", "relative_to": "base", "direction": [0, -1]},
+    const std::string driven = R"("displacement": {"y": {"value": -100e-6, "ramp": 2e-3}})";
+    const RunResult r = run(plate(pressing("0.025", platen, driven) + R"(,
         "sxx": {"stress": "xx", "of": {"point": [0, 0], "radius": 0.002}},
         "syy": {"stress": "yy", "of": {"point": [0, 0], "radius": 0.002}},
         "aside": {"stress": "yy", "of": {"point": [0.008, 0.022], "radius": 0.002}}},
