@@ -107,7 +107,7 @@ void add_points(const RunData<2>& run, std::size_t k, std::vector<ContactPoint<2
     point.normal = normal;
     point.room = cut.gap - cut.width;
     point.longest_shift = std::numeric_limits<double>::infinity();
-    point.law = contact_law(run, length / count, cut.friction);
+    point.law = contact_law(run, point.side, length / count, cut.friction);
     point.at_start = point.distance = cut.width * normal;
   }
 }
@@ -115,9 +115,12 @@ void add_points(const RunData<2>& run, std::size_t k, std::vector<ContactPoint<2
 }  // namespace
 
 template <int Dim>
-ContactLaw contact_law(const RunData<Dim>& run, double area, double friction) {
+ContactLaw contact_law(const RunData<Dim>& run, const std::array<FaceSide, 2>& side, double area, double friction) {
   const double stiffness = run.setup.options.contact_stiffness * area / run.setup.arrangement.spacing;
-  return {stiffness * (run.view.lambda + 2.0 * run.view.mu), stiffness * run.view.mu, friction};
+  const std::size_t a = side[0].particle.front(), b = side[1].particle.front();
+  const ParticleMaterials<Dim>& m = run.materials;
+  return {stiffness * in_series(m.confined_modulus(a), m.confined_modulus(b)),
+          stiffness * in_series(m.bulk(a).mu, m.bulk(b).mu), friction};
 }
 
 template <int Dim>
@@ -142,8 +145,8 @@ std::optional<ContactPoint<Dim>> point_of_bond(const RunData<Dim>& run, const Ne
   point.side = {FaceSide{{bond.from}, {1.0}, {0.0}}, FaceSide{{bond.to}, {1.0}, {0.0}}};
   point.normal = bond.normal;
   point.longest_shift = spacing;
-  point.law = contact_law(run, share * std::sqrt(run.particles.volume[bond.from]),
-                          std::tan(degree * run.setup.parameters.friction_angle_deg));
+  point.law = contact_law(run, point.side, share * std::sqrt(run.particles.volume[bond.from]),
+                          std::tan(degree * run.materials.parameters(bond.from).friction_angle_deg));
   fit_sides_of_bond(run, lists, point);
   return point;
 }
@@ -158,7 +161,7 @@ std::vector<ContactPoint<Dim>> points_of_cuts(const RunData<Dim>& run) {
 template void fit_sides_of_bond<2>(const RunData<2>&, const NeighbourLists&, ContactPoint<2>&);
 template std::optional<ContactPoint<2>> point_of_bond<2>(const RunData<2>&, const NeighbourLists&,
                                                          const ReleasedBond<2>&);
-template ContactLaw contact_law<2>(const RunData<2>&, double, double);
+template ContactLaw contact_law<2>(const RunData<2>&, const std::array<FaceSide, 2>&, double, double);
 template std::vector<ContactPoint<2>> points_of_cuts<2>(const RunData<2>&);
 
 }  // namespace fpz::sph::detail

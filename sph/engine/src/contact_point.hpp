@@ -51,9 +51,11 @@ void transfer(Archive& archive, P& p) requires std::same_as<std::remove_const_t<
   archive(p.slip), archive(p.pressure), archive(p.shear), archive(p.force), archive(p.distance);
 }
 
-/// Law of a face of `area` (m, per metre of thickness) with this coefficient of friction.
+/// Law of faces of `area` (m, per metre of thickness) with this coefficient of friction, and with the stiffness of what
+/// their first particles are made of.
 template <int Dim>
-[[nodiscard]] ContactLaw contact_law(const RunData<Dim>& run, double area, double friction);
+[[nodiscard]] ContactLaw contact_law(const RunData<Dim>& run, const std::array<FaceSide, 2>& side, double area,
+                                     double friction);
 
 /// A point for a bond that a crack has cut. Nothing for one that hardly crosses the crack or is longer than to the next
 /// particles.

@@ -56,7 +56,7 @@ void CrackBands<Dim>::find_opened(Index first, Index last) {
   const Particles<Dim>& p = run_.particles;
   for (std::size_t i = lanes_begin(first); i < std::min(lanes_begin(last), p.count); ++i) {
     if (p.kind[i] != kind::cracked) continue;
-    const Tensor<double, Dim> elastic = elastic_strain<Dim>(run_.material.bulk, p.point[i].stress);
+    const Tensor<double, Dim> elastic = elastic_strain<Dim>(run_.materials.bulk(i), p.point[i].stress);
     for (std::size_t c = 0; c < run_.components; ++c) opened_[c][i] = p.strain[c][i] - elastic[static_cast<int>(c)];
   }
 }
@@ -91,7 +91,7 @@ double CrackBands<Dim>::opening_around(const Plane& plane, std::size_t i) const 
 template <int Dim>
 void CrackBands<Dim>::begin(std::size_t i) {
   const Particles<Dim>& p = run_.particles;
-  const double stable = longest_of_snap_back * snap_back_length(run_.setup.parameters, run_.setup.setting);
+  const double stable = longest_of_snap_back * run_.materials.longest_stable(i);
   at_first_[i] = p.length[i];
   longest_[i] = std::max(at_first_[i], std::min(longest * std::sqrt(p.volume[i]), stable));
 }
@@ -111,7 +111,7 @@ double CrackBands<Dim>::length_of(std::size_t i) const {
   if (!(plane.jump > 0.0) || p.point[i].crack.integrity < least_integrity) return p.length[i];
   const double size = std::sqrt(p.volume[i]);
   const double at_first = at_first_[i];
-  const Parameters& m = run_.setup.parameters;
+  const Parameters& m = run_.materials.parameters(i);
   const double floor = first_strain * m.tensile_strength / m.young_modulus;
   const double opening = opening_around(plane, i) + at_first * floor;
   const double length = opening / (strain_along(plane, i) + floor) * (opening / (plane.jump + at_first * floor));
@@ -124,8 +124,7 @@ template <int Dim>
 void CrackBands<Dim>::change_length(std::size_t i, double length) {
   Particles<Dim>& p = run_.particles;
   State<double, Dim>& point = p.point[i];
-  Material<double> m = run_.material;
-  set_rve_length(m, p.length[i]);
+  const Material<double> m = run_.materials.material(i, p.length[i]);
   const Tensor<double, Dim> bulk = bulk_strain<double, Dim>(m, point);
   const double scale = p.length[i] / length;
   run_.ledger.viscous[i / lanes] += p.volume[i] / p.length[i] * free_energy(m.law, point.crack) * (1.0 - scale);

@@ -59,7 +59,7 @@ double CrackRows<Dim>::lean_of(std::size_t i, const Full& correction) const {
     return Vec<double, Dim>((p.position[0][j] - p.position[0][i]) - (p.start[0][j] - p.start[0][i]),
                             (p.position[1][j] - p.position[1][i]) - (p.start[1][j] - p.start[1][i]));
   });
-  const Tensor<double, Dim> elastic = elastic_strain<Dim>(run_.material.bulk, p.stress_of(i));
+  const Tensor<double, Dim> elastic = elastic_strain<Dim>(run_.materials.bulk(i), p.stress_of(i));
   Full g = product(raw, correction);
   const double turn = rotation_beside(i);
   g = {g.xx - elastic[0], g.xy - elastic[2] + turn, g.yx - elastic[2] - turn, g.yy - elastic[1]};
@@ -67,8 +67,9 @@ double CrackRows<Dim>::lean_of(std::size_t i, const Full& correction) const {
   const double mean = 0.5 * (square.xx + square.yy), half = 0.5 * (square.xx - square.yy);
   const double radius = std::hypot(half, square.xy);
   const double largest = std::sqrt(mean + radius), other = std::sqrt(std::max(0.0, mean - radius));
+  const Parameters& m = run_.materials.parameters(i);
   const double borne =
-      std::max(run_.setup.parameters.tensile_strength / run_.setup.parameters.young_modulus,
+      std::max(m.tensile_strength / m.young_modulus,
                std::sqrt(elastic[0] * elastic[0] + elastic[1] * elastic[1] + 2.0 * elastic[2] * elastic[2]));
   if (!(largest > borne) || !(largest > 2.0 * other)) return 0.0;
   const double angle = 0.5 * std::atan2(square.xy, half);

@@ -25,15 +25,13 @@ Energies Engine<Dim>::energies() const {
   sum.elastic_start = ledger.elastic_start;
   sum.external = ledger.external;
   sum.kinetic = run.started ? kinetic() : 0.0;
-  Material<double> m = run.material;
   for (std::size_t i = 0; i < p.count; ++i) {
     const double volume = p.volume[i];
     if (p.kind[i] == kind::cracked) {
-      set_rve_length(m, p.length[i]);
-      sum.elastic += volume * stored_energy(m, p.point[i]);
+      sum.elastic += volume * stored_energy(run.materials.material(i, p.length[i]), p.point[i]);
       sum.fracture += p.fracture[i];
     } else {
-      sum.elastic += elastic_energy<Dim>(m.bulk, p.stress_of(i), volume);
+      sum.elastic += elastic_energy<Dim>(run.materials.bulk(i), p.stress_of(i), volume);
     }
     for (std::size_t c = 0; c < p.start.size(); ++c) {
       sum.external += p.mass[i] * run.view.weight_scale * run.setup.options.gravity[static_cast<int>(c)] *

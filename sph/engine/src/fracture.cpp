@@ -37,8 +37,7 @@ Outcome Body<Dim>::update_flagged(Index first, Index last) {
 template <int Dim>
 Outcome Body<Dim>::update_particle(std::size_t i) {
   Particles<Dim>& p = run_.particles;
-  Material<double> m = run_.material;
-  set_rve_length(m, p.length[i]);
+  Material<double> m = run_.materials.material(i, p.length[i]);
   State<double, Dim> point;
   if (p.kind[i] == kind::cracked) {
     point = p.point[i];

@@ -22,9 +22,19 @@ FPZ_LANE double lane_sum(const double (&a)[n]) {
   return s;
 }
 
+/// Elastic stress of particle i, of one material for all or its own.
+template <bool Several>
+FPZ_LANE Symmetric elastic_stress_of(const V& v, Index i, const Symmetric& strain) {
+  if constexpr (Several) return elastic_stress(v.own_lambda[i], v.own_mu[i], strain);
+  return elastic_stress(v.lambda, v.mu, strain);
+}
+
 /// Whether the elastic stress is the particle's: it never cracks, or certainly not now. All others go to the library.
+template <bool Several>
 FPZ_LANE bool stays_elastic(const V& v, Index i, const Symmetric& s) {
-  return (v.kind[i] == kind::elastic) | ((v.kind[i] == kind::intact) & intact(v.sin_phi, v.strength, v.apex, s));
+  const bool safe = Several ? intact(v.own_sin_phi[i], v.own_strength[i], v.own_apex[i], s)
+                            : intact(v.sin_phi, v.strength, v.apex, s);
+  return (v.kind[i] == kind::elastic) | ((v.kind[i] == kind::intact) & safe);
 }
 
 /// Positions at n + 1 (eq 31) and the velocities there (eq 29: extrapolated, for the viscosity only).
@@ -64,6 +74,7 @@ FPZ_LANE void difference_sums(const V& v, Index b, const double* ux, const doubl
 
 /// eq 21 in the undeformed body: velocity gradient (corrected, eq 17) -> F, its rotation and stretch, elastic stress
 /// (in place of eq 24, eq 27 and eq 30) and flux of the force; flags the particles that the library must update.
+template <bool Several>
 void gradient_reference(const V& v, Index first, Index last) {
   for (Index b = first; b < last; ++b) {
     const Index o = b * n;
@@ -88,8 +99,8 @@ void gradient_reference(const V& v, Index first, Index last) {
       v.strain[0][i] = p.strain.xx;
       v.strain[1][i] = p.strain.yy;
       v.strain[2][i] = p.strain.xy;
-      const Symmetric s = elastic_stress(v.lambda, v.mu, p.strain);
-      const bool take = stays_elastic(v, i, s);
+      const Symmetric s = elastic_stress_of<Several>(v, i, p.strain);
+      const bool take = stays_elastic<Several>(v, i, s);
       v.stress[0][i] = take ? s.xx : v.stress[0][i];
       v.stress[1][i] = take ? s.yy : v.stress[1][i];
       v.stress[2][i] = take ? s.xy : v.stress[2][i];
@@ -244,7 +255,7 @@ void force_zero_energy(const V& v, Index first, Index last) {
 /// Kernel gradients of the present positions, L_i of eq 18, velocity gradient of eq 21 -> density (eq 19) and rotated
 /// stress (eq 21) from n to n + 1, exact for a linear motion: in place of eq 22, eq 25 and eq 28 for the density and of
 /// eq 24, eq 27 and eq 30 for the stress. Flux of the force; flags what the library must update.
-template <Kernel K, bool PaperMomentum>
+template <Kernel K, bool PaperMomentum, bool Several>
 void gradient_updated(const V& v, Index first, Index last) {
   const double *x = v.position[0], *y = v.position[1], *ux = v.velocity[0], *uy = v.velocity[1];
   const double* volume = v.volume;
@@ -307,10 +318,10 @@ void gradient_updated(const V& v, Index first, Index last) {
       v.strain[0][i] = p.strain.xx;
       v.strain[1][i] = p.strain.yy;
       v.strain[2][i] = p.strain.xy;
-      const Symmetric d = elastic_stress(v.lambda, v.mu, p.strain);
+      const Symmetric d = elastic_stress_of<Several>(v, i, p.strain);
       const Symmetric old = {v.stress[0][i], v.stress[1][i], v.stress[2][i]};
       const Symmetric s = rotated(p.cosine, p.sine, {old.xx + d.xx, old.yy + d.yy, old.xy + d.xy});
-      const bool take = stays_elastic(v, i, s);
+      const bool take = stays_elastic<Several>(v, i, s);
       v.stress[0][i] = take ? s.xx : old.xx;
       v.stress[1][i] = take ? s.yy : old.yy;
       v.stress[2][i] = take ? s.xy : old.xy;
@@ -392,20 +403,24 @@ void force_updated(const V& v, Index first, Index last) {
   }
 }
 
-template <Kernel K, bool PaperMomentum>
+template <Kernel K, bool PaperMomentum, bool Several>
 constexpr Passes<2> passes = {drift,
-                              gradient_reference,
+                              gradient_reference<Several>,
                               force_reference,
                               gradient_zero_energy,
                               force_zero_energy,
-                              gradient_updated<K, PaperMomentum>,
+                              gradient_updated<K, PaperMomentum, Several>,
                               force_updated<K, PaperMomentum>};
 
+template <bool Several>
 const Passes<2>& choose(int kernel, int momentum) {
   static constexpr const Passes<2>* table[2][2] = {
-      {&passes<Kernel::cubic_spline, false>, &passes<Kernel::cubic_spline, true>},
-      {&passes<Kernel::wendland_c2, false>, &passes<Kernel::wendland_c2, true>}};
+      {&passes<Kernel::cubic_spline, false, Several>, &passes<Kernel::cubic_spline, true, Several>},
+      {&passes<Kernel::wendland_c2, false, Several>, &passes<Kernel::wendland_c2, true, Several>}};
   return *table[kernel][momentum];
+}
+const Passes<2>& choose(int kernel, int momentum, bool several) {
+  return several ? choose<true>(kernel, momentum) : choose<false>(kernel, momentum);
 }
 
 }  // namespace

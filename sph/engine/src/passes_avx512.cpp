@@ -5,8 +5,8 @@
 namespace fpz::sph::detail {
 
 template <>
-const Passes<2>& avx512_passes<2>(int kernel, int momentum) {
-  return avx512::choose(kernel, momentum);
+const Passes<2>& avx512_passes<2>(int kernel, int momentum, bool several) {
+  return avx512::choose(kernel, momentum, several);
 }
 
 }  // namespace fpz::sph::detail

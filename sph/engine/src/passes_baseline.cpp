@@ -5,8 +5,8 @@
 namespace fpz::sph::detail {
 
 template <>
-const Passes<2>& baseline_passes<2>(int kernel, int momentum) {
-  return baseline::choose(kernel, momentum);
+const Passes<2>& baseline_passes<2>(int kernel, int momentum, bool several) {
+  return baseline::choose(kernel, momentum, several);
 }
 
 }  // namespace fpz::sph::detail

@@ -77,6 +77,25 @@ void check_arrangement(const RunSetup<Dim>& s, Messages& m) {
 }
 
 template <int Dim>
+void check_materials(const RunSetup<Dim>& s, Messages& m) {
+  for (std::size_t k = 0; k < s.materials.count(); ++k) {
+    Parameters p = parameters_of(s, k);
+    p.rve_length = 1e-6;  // the particles carry their own
+    const std::string who = k == 0 ? "" : "material " + std::to_string(k) + ": ";
+    for (const Violation& e : validate(p, s.setting).errors) {
+      m.require(false, who + entry(e.field, e.value, e.constraint));
+    }
+  }
+  const std::vector<int>& of_particle = s.materials.of_particle;
+  if (of_particle.empty())
+    return m.require(s.materials.further.empty(), "materials: no particle has any but the first");
+  m.require(of_particle.size() == s.arrangement.size(), "materials: must have one entry per particle");
+  const auto known = [&](int k) { return k >= 0 && static_cast<std::size_t>(k) < s.materials.count(); };
+  m.require(std::all_of(of_particle.begin(), of_particle.end(), known),
+            "materials: a particle has one that is not there");
+}
+
+template <int Dim>
 void check_cuts(const Arrangement<Dim>& a, Messages& m) {
   for (std::size_t k = 0; k < a.cuts.size(); ++k) {
     const std::string who = "cut " + std::to_string(k) + ": ";
@@ -144,10 +163,7 @@ std::vector<std::string> problems(const RunSetup<Dim>& s) {
   }
   for (const Load<Dim>& load : s.loads) check_load(load, s.arrangement, m);
   m.require(is_finite(s.initial_stress), "initial_stress: must be finite");
-  Parameters p = s.parameters;
-  p.rve_length = 1e-6;  // the particles carry their own
-  const Validation v = validate(p, s.setting);
-  for (const Violation& e : v.errors) m.require(false, entry(e.field, e.value, e.constraint));
+  check_materials(s, m);
   return m.take();
 }
 

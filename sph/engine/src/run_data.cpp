@@ -14,7 +14,7 @@ namespace fpz::sph::detail {
 namespace {
 
 template <int Dim>
-const Passes<Dim>* choose_passes(const Options<Dim>& o) {
+const Passes<Dim>* choose_passes(const Options<Dim>& o, bool several) {
   const int kernel = static_cast<int>(o.kernel);
   const int momentum = static_cast<int>(o.momentum);
 #ifdef FPZ_SPH_X86
@@ -23,11 +23,11 @@ const Passes<Dim>* choose_passes(const Options<Dim>& o) {
                       __builtin_cpu_supports("avx512dq") > 0;
   const InstructionSet want = o.instruction_set;
   if (avx512 && (want == InstructionSet::best || want == InstructionSet::avx512)) {
-    return &avx512_passes<Dim>(kernel, momentum);
+    return &avx512_passes<Dim>(kernel, momentum, several);
   }
-  if (avx2 && want != InstructionSet::baseline) return &avx2_passes<Dim>(kernel, momentum);
+  if (avx2 && want != InstructionSet::baseline) return &avx2_passes<Dim>(kernel, momentum, several);
 #endif
-  return &baseline_passes<Dim>(kernel, momentum);
+  return &baseline_passes<Dim>(kernel, momentum, several);
 }
 
 }  // namespace
@@ -44,11 +44,10 @@ int team_size(int requested) {
 template <int Dim>
 RunData<Dim>::RunData(const RunSetup<Dim>& s, double time_step) : setup(s), dt(time_step) {
   const Options<Dim>& o = setup.options;
-  material = make_material(setup.parameters, setup.setting);
   update_options.method = o.method;
   h = o.smoothing_ratio * setup.arrangement.spacing;
-  passes = choose_passes(o);
   place_particles();
+  passes = choose_passes(o, materials.differ());
   set_initial_stress();
   fields(*this, Point<Dim>{view});
   set_constants();
@@ -64,7 +63,9 @@ void RunData<Dim>::place_particles() {
   slot_of.resize(p.count);
   for (std::size_t i = 0; i < p.count; ++i) slot_of[p.id[i]] = i;
   // Padding lanes: no inverse mass, which is inertia without end.
-  fields(*this, Allocate{(p.count + lanes - 1) / lanes * lanes});
+  const std::size_t padded = (p.count + lanes - 1) / lanes * lanes;
+  fields(*this, Allocate{padded});
+  materials = ParticleMaterials<Dim>(setup, p.id, padded);
   std::fill(p.rotation[0].begin(), p.rotation[0].end(), 1.0);
   p.point.resize(p.count);
 
@@ -76,8 +77,8 @@ void RunData<Dim>::place_particles() {
       damping[c][i] = 1.0;
     }
     p.volume[i] = a.volume[k];
-    p.density[i] = setup.parameters.density;
-    p.mass[i] = setup.parameters.density * a.volume[k] * o.mass_scale;
+    p.density[i] = materials.parameters(i).density;
+    p.mass[i] = p.density[i] * a.volume[k] * o.mass_scale;
     p.inverse_mass[i] = 1.0 / p.mass[i];
     const double size = Dim == 2 ? std::sqrt(a.volume[k]) : std::cbrt(a.volume[k]);
     p.length[i] = o.rve_length.rule == RveLength::Rule::number ? o.rve_length.value : size;
@@ -90,16 +91,16 @@ void RunData<Dim>::place_particles() {
 template <int Dim>
 void RunData<Dim>::set_initial_stress() {
   const Tensor<double, Dim>& stress = setup.initial_stress;
-  const Tensor<double, Dim> strain = elastic_strain<Dim>(material.bulk, stress);
   Particles<Dim>& p = particles;
   for (std::size_t i = 0; i < p.count; ++i) {
+    const Tensor<double, Dim> strain = elastic_strain<Dim>(materials.bulk(i), stress);
     for (std::size_t k = 0; k < components; ++k) {
       p.stress[k][i] = stress[static_cast<int>(k)];
       p.strain[k][i] = strain[static_cast<int>(k)];
     }
     p.gradient[0][i] = strain[0], p.gradient[3][i] = strain[1];  // F - I, which is symmetric
     p.gradient[1][i] = p.gradient[2][i] = strain[2];
-    ledger.elastic_start += elastic_energy<Dim>(material.bulk, stress, p.volume[i]);
+    ledger.elastic_start += elastic_energy<Dim>(materials.bulk(i), stress, p.volume[i]);
   }
 }
 
@@ -109,15 +110,8 @@ void RunData<Dim>::set_constants() {
   View<Dim>& v = view;
   for (std::size_t c = 0; c < dimensions; ++c) v.gravity[c] = o.gravity[static_cast<int>(c)];
   v.step = dt;
-  v.lambda = material.bulk.lambda;
-  v.mu = material.bulk.mu;
-  v.sin_phi = material.law.surface.sin_phi;
-  v.strength = material.law.surface.cohesion * material.law.surface.cos_phi;
-  v.apex = material.law.surface.apex;
+  materials.point(v);
   v.weight_scale = 1.0 / o.mass_scale;
-  v.rest_density = setup.parameters.density;
-  v.sound_speed = std::sqrt(setup.parameters.young_modulus / setup.parameters.density);
-  v.top_speed = std::sqrt((v.lambda + 2.0 * v.mu) / setup.parameters.density);
   set_damping(o.damping);
   v.smoothing = h;
   v.inverse_smoothing = 1.0 / h;

@@ -1,9 +1,9 @@
 // What all parts of a run share: set-up, constants, clock, particles, ledger, and how work is dealt out to threads.
 #pragma once
 
-#include "fpz/material.hpp"
 #include "fpz/options.hpp"
 #include "fpz/sph/simulation.hpp"
+#include "particle_materials.hpp"
 #include "work_ledger.hpp"
 
 namespace fpz::sph::detail {
@@ -23,7 +23,7 @@ struct RunData {
   static constexpr auto components = static_cast<std::size_t>(tensor_size<Dim>);
 
   RunSetup<Dim> setup;
-  Material<double> material;
+  ParticleMaterials<Dim> materials;
   fpz::Options update_options;
   double h = 0.0;   ///< smoothing length, m
   double dt = 0.0;  ///< s

@@ -13,7 +13,10 @@ namespace fpz::sph {
 /// eq 32.
 template <int Dim>
 double courant_step(const RunSetup<Dim>& s) {
-  const double sound = std::sqrt(s.parameters.young_modulus / s.parameters.density);
+  double sound = 0.0;
+  for (std::size_t k = 0; k < s.materials.count(); ++k) {
+    sound = std::max(sound, std::sqrt(parameters_of(s, k).young_modulus / parameters_of(s, k).density));
+  }
   return s.options.courant * s.options.smoothing_ratio * s.arrangement.spacing / sound *
          std::sqrt(s.options.mass_scale);
 }
@@ -138,11 +141,12 @@ std::size_t Simulation<Dim>::cracked() const {
 template <int Dim>
 std::size_t Simulation<Dim>::failing_out_of_plane() const {
   const detail::RunData<Dim>& run = engine_->run;
-  const double nothing = 1e-6 * run.material.law.surface.cohesion;  // those about to crack are on the surface
   std::size_t n = 0;
   for (std::size_t i = 0; i < particles().count; ++i) {
     if (particles().kind[i] != kind::intact) continue;
-    n += failure_value_in_space(run.material, particles().stress_of(i)) > nothing ? 1U : 0U;
+    const Material<double> m = run.materials.material(i, particles().length[i]);
+    const double nothing = 1e-6 * m.law.surface.cohesion;  // those about to crack are on the surface
+    n += failure_value_in_space(m, particles().stress_of(i)) > nothing ? 1U : 0U;
   }
   return n;
 }

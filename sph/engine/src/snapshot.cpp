@@ -36,10 +36,14 @@ std::uint64_t fingerprint(const RunSetup<Dim>& s) {
   w(Dim);
   w(s.setting);
   for_each_option(s.options, OptionPrint{w});
-  for (const auto& p : parameter_table<double>) {
-    if (p.of_material) w(s.parameters.*p.member);
+  for (std::size_t k = 0; k < s.materials.count(); ++k) {
+    const Parameters& material = parameters_of(s, k);
+    for (const auto& p : parameter_table<double>) {
+      if (p.of_material) w(material.*p.member);
+    }
+    visit_choices(material.choices, [&w](const char*, auto choice) { w(choice); });
   }
-  visit_choices(s.parameters.choices, [&w](const char*, auto choice) { w(choice); });
+  w(s.materials.of_particle);
   w(s.arrangement.spacing);
   w(s.arrangement.position);
   w(s.arrangement.volume);

@@ -64,8 +64,8 @@ struct StaticBody<Dim>::Forces {
   [[nodiscard]] Tensor<double, Dim> stress(std::size_t id) const {
     const Fields<tensor_size<Dim>>& e = engine.run.particles.strain;
     const auto i = static_cast<std::size_t>(slot(id));
-    const detail::Symmetric s =
-        detail::elastic_stress(engine.run.view.lambda, engine.run.view.mu, {e[0][i], e[1][i], e[2][i]});
+    const Elasticity<double>& bulk = engine.run.materials.bulk(i);
+    const detail::Symmetric s = detail::elastic_stress(bulk.lambda, bulk.mu, {e[0][i], e[1][i], e[2][i]});
     return Tensor<double, Dim>(s.xx, s.yy, s.xy) / scale;
   }
 

@@ -29,6 +29,9 @@ struct View {
   double* volume = nullptr;
   double* density = nullptr;
   const double* kind = nullptr;
+  // Of each particle, where there are several materials; see the constants of the same names.
+  const double *own_lambda = nullptr, *own_mu = nullptr;
+  const double *own_sin_phi = nullptr, *own_strength = nullptr, *own_apex = nullptr;
   double* stress[tensor] = {};
   double* strain[tensor] = {};
   double* correction[d * d] = {};  // xx, yy, xy, yx; symmetric in updated
@@ -60,9 +63,9 @@ struct View {
   double* artificial_force[d] = {};
 
   // Constants.
-  double step = 0.0;                           // s; of the kick: half at the start
-  double work_before = 0.0, work_after = 0.0;  // half a step each; before is zero at the start
-  double lambda = 0.0, mu = 0.0;
+  double step = 0.0;                                 // s; of the kick: half at the start
+  double work_before = 0.0, work_after = 0.0;        // half a step each; before is zero at the start
+  double lambda = 0.0, mu = 0.0;                     // of a body of one material, as the next three
   double sin_phi = 0.0, strength = 0.0, apex = 0.0;  // onset: strength = c0 cos(phi)
   double gravity[d] = {};
   double weight_scale = 1.0;  // gravity acts on mass * this
@@ -94,12 +97,12 @@ struct Passes {
   Pass force_updated;         ///< the same with artificial viscosity and stress
 };
 
-/// The loops of one instruction set; [kernel][momentum form] where they differ.
+/// The loops of one instruction set, for a kernel, a momentum form, and one material or several.
 template <int Dim>
-const Passes<Dim>& baseline_passes(int kernel, int momentum);
+const Passes<Dim>& baseline_passes(int kernel, int momentum, bool several);
 template <int Dim>
-const Passes<Dim>& avx2_passes(int kernel, int momentum);
+const Passes<Dim>& avx2_passes(int kernel, int momentum, bool several);
 template <int Dim>
-const Passes<Dim>& avx512_passes(int kernel, int momentum);
+const Passes<Dim>& avx512_passes(int kernel, int momentum, bool several);
 
 }  // namespace fpz::sph::detail

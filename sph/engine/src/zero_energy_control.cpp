@@ -20,8 +20,7 @@ constexpr double no_moment = 1e-9;
 }  // namespace
 
 template <int Dim>
-ZeroEnergyControl<Dim>::ZeroEnergyControl(RunData<Dim>& run, double strength)
-    : run_(run), strength_(strength * (run.view.lambda + 2.0 * run.view.mu)) {
+ZeroEnergyControl<Dim>::ZeroEnergyControl(RunData<Dim>& run, double strength) : run_(run), strength_(strength) {
   const Particles<Dim>& p = run.particles;
   lists_ = find_neighbours<Dim>(p.start, p.count, kernel_support * control_smoothing * run.setup.arrangement.spacing);
   separate<Dim>(lists_, run.setup.arrangement.cuts, p.start);
@@ -50,7 +49,8 @@ void ZeroEnergyControl<Dim>::write_row(std::size_t i) {
     const double rx = p.start[0][j] - p.start[0][i];
     const double ry = p.start[1][j] - p.start[1][i];
     const double q = std::sqrt(rx * rx + ry * ry) / h;
-    const double stiffness = norm * (p.volume[i] * p.volume[j]) * kernel_slope(Kernel::cubic_spline, q);
+    const double modulus = run_.materials.equally_stiff(i, j) ? run_.materials.confined_modulus(i) : 0.0;
+    const double stiffness = norm * modulus * (p.volume[i] * p.volume[j]) * kernel_slope(Kernel::cubic_spline, q);
     const std::size_t entry = bonds_.entry(i, k);
     stiffness_[entry] = stiffness;
     bonds_.weight[0][entry] = stiffness * rx;
@@ -68,7 +68,7 @@ void ZeroEnergyControl<Dim>::write_row(std::size_t i) {
 template <int Dim>
 double ZeroEnergyControl<Dim>::share_of(std::size_t i) const {
   const Particles<Dim>& p = run_.particles;
-  const Parameters& m = run_.setup.parameters;
+  const Parameters& m = run_.materials.parameters(i);
   const double most = p.length[i] * m.tensile_strength / m.young_modulus;
   return std::max(0.0, 1.0 - damage(p.point[i].crack) * m.delta0 / most);
 }

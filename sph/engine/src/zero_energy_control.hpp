@@ -10,7 +10,8 @@ namespace fpz::sph::detail {
 /// Every particle has the energy 1/4 sum k_ij |u_j - u_i - G_i r_ij|^2 over its nearest neighbours, G_i being the
 /// displacement gradient that makes it smallest and r_ij the bond in the undeformed body. The force is the exact
 /// derivative of the sum of these energies: a bond pulls with k_ij times the part of u_j - u_i that the mean of its two
-/// gradients does not explain. Nothing for affine displacements, so none for rotations, on any arrangement.
+/// gradients does not explain. Nothing for affine displacements, so none for rotations, on any arrangement. Bonds
+/// between particles of different stiffness have none: displacements have a kink there.
 ///
 /// A particle loses its energy, and no other's, as its crack opens: all of it when it has opened by as much strain
 /// (D delta0/H) as the rock bears elastically (sigma_t0/E). What it held is dissipated. Its neighbours keep theirs,
@@ -61,7 +62,7 @@ class ZeroEnergyControl {
   [[nodiscard]] double stored_at(std::size_t i) const;
 
   RunData<Dim>& run_;
-  double strength_;                ///< Pa
+  double strength_;                ///< stiffness in units of lambda + 2 mu
   NeighbourLists lists_;           ///< nearest neighbours at the start
   Bonds<Dim> bonds_;               ///< weight: k_ij r_ij
   Field stiffness_;                ///< k_ij, N/m, beside the weights

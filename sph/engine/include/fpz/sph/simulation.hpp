@@ -11,6 +11,7 @@
 #include "fpz/sph/arrangement.hpp"
 #include "fpz/sph/energy.hpp"
 #include "fpz/sph/group.hpp"
+#include "fpz/sph/materials.hpp"
 #include "fpz/sph/options.hpp"
 #include "fpz/sph/outcome.hpp"
 #include "fpz/sph/particles.hpp"
@@ -29,6 +30,7 @@ struct RunSetup {
   std::vector<Group<Dim>> groups;
   std::vector<Load<Dim>> loads;
   Parameters parameters;  ///< rve_length is ignored: options.rve_length decides
+  Materials materials;    ///< others than these parameters, where the body is not of one material
   Setting setting = Setting::plane_strain;
   Options<Dim> options;
   std::vector<Vec<double, Dim>> velocity;  ///< at the start, per particle, m/s; empty: at rest
@@ -40,7 +42,13 @@ struct RunSetup {
 template <int Dim>
 [[nodiscard]] std::vector<std::string> problems(const RunSetup<Dim>& setup);
 
-/// The time step of eq 32, s: courant * h/sqrt(E/rho), times sqrt(mass_scale).
+/// The parameters of material k: 0 is RunSetup::parameters.
+template <int Dim>
+[[nodiscard]] const Parameters& parameters_of(const RunSetup<Dim>& setup, std::size_t material) {
+  return material == 0 ? setup.parameters : setup.materials.further[material - 1];
+}
+
+/// The time step of eq 32, s: courant * h/sqrt(E/rho), times sqrt(mass_scale); of the fastest material.
 template <int Dim>
 [[nodiscard]] double courant_step(const RunSetup<Dim>& setup);
 

@@ -1,0 +1,21 @@
+// What the particles of a body are made of, where it is not one material alone.
+#pragma once
+
+#include <vector>
+
+#include "fpz/parameters.hpp"
+
+namespace fpz::sph {
+
+/// Materials besides that of RunSetup::parameters, which is material 0, and who has them.
+struct Materials {
+  std::vector<Parameters> further;  ///< materials 1, 2, ...; rve_length is ignored
+  std::vector<int> of_particle;     ///< in the order of the arrangement; empty: all have material 0
+
+  [[nodiscard]] std::size_t count() const { return 1 + further.size(); }
+  [[nodiscard]] std::size_t of(std::size_t id) const {
+    return of_particle.empty() ? 0 : static_cast<std::size_t>(of_particle[id]);
+  }
+};
+
+}  // namespace fpz::sph
