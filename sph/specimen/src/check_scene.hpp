@@ -21,6 +21,7 @@ struct SceneCheck {
 void check_sizes(const SceneCheck& c);
 void check_notches(const SceneCheck& c);
 void check_holes(const SceneCheck& c);
+void check_regions(const SceneCheck& c);
 /// The spacing against the narrowest part of the body and the process zone.
 void check_rows(const SceneCheck& c);
 void check_boundaries(const SceneCheck& c);

@@ -59,20 +59,22 @@ void check_necks(const SceneCheck& c) {
 }
 
 /// A mesh of particles cannot follow a process zone that is a few spacings long, and not even begin where H snaps back.
-void check_process_zone(const SceneCheck& c) {
+void check_process_zone(const SceneCheck& c, const Place& root, std::string_view key, const Parameters& p) {
   constexpr double least_spacings = 5.0;
-  const Parameters& p = c.scene.parameters;
   const double confined = c.scene.setting == Setting::plane_strain ? 1.0 - p.poisson_ratio * p.poisson_ratio : 1.0;
   const double zone = p.young_modulus / confined * p.delta0 / p.tensile_strength;  // E G / sigma_t0^2
   const double longest = snap_back_length(p, c.scene.setting);
-  with(c.root, "spacing", [&](const Place& at) {
+  const std::string spacing = key == "spacing" ? "" : "the spacing, " + brief(c.scene.spacing) + ", ";
+  const std::string is = spacing.empty() ? "" : "is ";
+  with(root, key, [&](const Place& at) {
     if (c.scene.spacing >= longest) {
-      return c.warn(at, "should be < " + brief(longest) +
+      return c.warn(at, spacing + "should be < " + brief(longest) +
                             ", the longest H without snap-back of this material: a run ends where the first particle "
                             "cracks");
     }
     if (zone >= least_spacings * c.scene.spacing) return;
-    c.warn(at, "too coarse for this material, whose process zone is about E G / sigma_t0^2 = " + brief(zone) +
+    c.warn(at, spacing + is +
+                   "too coarse for this material, whose process zone is about E G / sigma_t0^2 = " + brief(zone) +
                    " m long; peak loads then depend on the spacing (at most " + brief(zone / least_spacings) + ")");
   });
 }
@@ -103,7 +105,12 @@ void check_sizes(const SceneCheck& c) {
 void check_rows(const SceneCheck& c) {
   const std::size_t before = c.reader.problems().size();
   check_necks(c);
-  if (c.reader.problems().size() == before) check_process_zone(c);
+  if (c.reader.problems().size() != before) return;
+  check_process_zone(c, c.root, "spacing", c.scene.parameters);
+  for_entries(c, "regions", [&](const Place& p, std::size_t k) {
+    const std::size_t number = c.scene.regions[k].material;
+    check_process_zone(c, p, "material", c.scene.further_materials[number - 1].parameters);
+  });
 }
 
 }  // namespace fpz::specimen::detail

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "fpz/io/input_error.hpp"
+#include "material_map.hpp"
 
 namespace fpz::specimen {
 namespace {
@@ -43,6 +44,18 @@ std::string slots_text(const Scene& scene, const Specimen& specimen) {
     s << "  notch " << k << "           " << 1e3 * specimen.slots[k].width << " mm wide, "
       << 1e3 * specimen.slots[k].length << " mm long by its particles (asked for " << 1e3 * n.width << " and "
       << 1e3 * (n.tip - n.mouth).norm() << ")\n";
+  }
+  return s.str();
+}
+
+/// Materials and how much of the body is of them.
+std::string materials_text(const Scene& scene, const Specimen& specimen) {
+  std::ostringstream s;
+  s.precision(4);
+  if (scene.further_materials.empty()) return "";
+  for (const detail::MaterialShare& share : detail::material_shares(scene, specimen.setup)) {
+    s << "  material          " << share.name << ": " << share.particles << " particles, " << 1e6 * share.area
+      << " mm^2\n";
   }
   return s.str();
 }
@@ -95,8 +108,9 @@ std::string estimate_text(const Scene& scene, const Specimen& specimen, const Es
   s.precision(3);
   s << "  particles         " << specimen.setup.arrangement.size() << " (" << e.mean_neighbours << " neighbours each)\n"
     << "  specimen area     " << 1e6 * specimen.area << " mm^2\n"
-    << slots_text(scene, specimen) << loads_text(scene, specimen) << "  time step         " << e.schedule.time_step
-    << " s, row every " << e.schedule.row_every << " steps, frame every " << e.schedule.frame_every << "\n"
+    << materials_text(scene, specimen) << slots_text(scene, specimen) << loads_text(scene, specimen)
+    << "  time step         " << e.schedule.time_step << " s, row every " << e.schedule.row_every
+    << " steps, frame every " << e.schedule.frame_every << "\n"
     << "  steps             at most " << e.schedule.steps;
   if (scene.stop.deflection && e.likely_steps < e.schedule.steps)
     s << ", about " << e.likely_steps << " to stop.deflection";

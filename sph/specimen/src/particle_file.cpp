@@ -49,4 +49,26 @@ sph::Arrangement<2> read_particles(const std::filesystem::path& file, double spa
   return assemble(x, y, scalars("volume"), scalars("group"), spacing, file.string());
 }
 
+std::vector<int> read_particle_materials(const std::filesystem::path& file) {
+  std::vector<double> numbers;
+  if (file.extension() == ".csv") {
+    const io::Table t = io::read_csv(file);
+    if (const std::vector<double>* column = t.find("material")) numbers = *column;
+  } else {
+    const PointCloud cloud = read_vtk(file);
+    const PointData* d = cloud.find("material");
+    if (d != nullptr && d->components == 1) numbers = d->values;
+  }
+  std::vector<int> materials;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const double m = numbers[i];
+    if (!(m >= 0.0 && m < 1e6) || m != std::floor(m)) {
+      throw InputError(file.string() + ": particle " + std::to_string(i) +
+                       ": its material is no number of a region (0: none of them)");
+    }
+    materials.push_back(static_cast<int>(m));
+  }
+  return materials;
+}
+
 }  // namespace fpz::specimen

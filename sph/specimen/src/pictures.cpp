@@ -167,13 +167,21 @@ PictureOutcome draw_scene(const Scene& scene, const Specimen& specimen, const fs
   PictureOutcome outcome;
   if (gnuplot_missing(outcome)) return outcome;
   const char* colours[] = {"#C0392B", "#1F5FA8", "#2E8B57", "#D68910", "#8E44AD", "#16A0A0"};
+  const char* pale[] = {"#E8D3A8", "#B9CCE0", "#C4DDBF", "#DDC3DA", "#F0C4B8", "#B8DAD6"};
   std::vector<ColourClass> classes = {{"specimen", "#D8D8D2"}};
+  for (std::size_t k = 0; k < scene.regions.size(); ++k) {
+    classes.push_back({io::gnuplot_plain(scene.regions[k].name), pale[k % 6]});
+  }
   for (std::size_t b = 0; b < scene.boundaries.size(); ++b)
     classes.push_back({io::gnuplot_plain(scene.boundaries[b].name), colours[b % 6]});
   classes.push_back({"gauges", "#202020"});
   const sph::Arrangement<2>& a = specimen.setup.arrangement;
   ParticleMap map{io::gnuplot_plain(scene.name) + ": " + std::to_string(a.size()) + " particles", a.position, {}, {}};
-  for (const int g : a.group) map.colour.push_back(static_cast<std::size_t>(g + 1));
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const bool in_body = a.group[i] == sph::Arrangement<2>::specimen;
+    map.colour.push_back(in_body ? specimen.setup.materials.of(i)
+                                 : scene.regions.size() + 1 + static_cast<std::size_t>(a.group[i]));
+  }
   for (const auto& points : outlines(scene.body)) map.lines.push_back(outline(points, "lines lw 1.5 lc rgb '#202020'"));
   std::vector<Point> gauges;
   for (const auto& [name, g] : specimen.gauges) {

@@ -4,9 +4,10 @@
 namespace fpz::specimen::detail {
 namespace {
 
-constexpr std::array<std::string_view, 14> boundary_keys = {
+constexpr std::array<std::string_view, 16> boundary_keys = {
     "name",     "at",      "direction", "width",    "layers",       "fit",   "jaw_radius",
-    "friction", "elastic", "hinge",     "velocity", "displacement", "force", "machine_stiffness"};
+    "friction", "elastic", "hinge",     "velocity", "displacement", "force", "machine_stiffness",
+    "material", "rigid"};
 
 /// true, or the point about which the boundary turns.
 void read_hinge(const InputReader& r, const Place& p, Boundary& b) {
@@ -52,6 +53,10 @@ Boundary read_boundary(const InputReader& r, const Place& place, std::span<const
     });
   }
   with(place, "hinge", [&](const Place& p) { read_hinge(r, p, b); });
+  with(place, "rigid", [&](const Place& p) {
+    b.rigid = boolean(r, p).value_or(false);
+    if (b.rigid && b.hinged) r.problem(p, "one with a \"hinge\" is rigid already");
+  });
   with(place, "elastic", [&](const Place& p) { b.elastic = boolean(r, p).value_or(true); });
   if (!read_actuations(r, place, {true, gauges}, b.drive)) {
     r.problem(place, "needs \"velocity\", \"displacement\" or \"force\": how it is driven");
@@ -61,10 +66,13 @@ Boundary read_boundary(const InputReader& r, const Place& place, std::span<const
 
 }  // namespace
 
-void read_boundaries(const InputReader& r, const Place& place, std::span<const std::string> gauges, Scene& scene) {
+void read_boundaries(const InputReader& r, const Place& place, std::span<const std::string> gauges,
+                     std::span<const std::size_t> materials, Scene& scene) {
   if (!r.array(place, "boundaries")) return;
   for (const JsonValue& item : place.value().items) {
-    scene.boundaries.push_back(read_boundary(r, Place(place, item), gauges, scene));
+    Boundary b = read_boundary(r, Place(place, item), gauges, scene);
+    b.material = materials[scene.boundaries.size()];
+    scene.boundaries.push_back(std::move(b));
   }
 }
 

@@ -1,6 +1,6 @@
 #include "check_scene.hpp"
-#include "fpz/io/material_file.hpp"
 #include "fpz/specimen/scene.hpp"
+#include "read_materials.hpp"
 #include "scene_reader.hpp"
 
 namespace fpz::specimen {
@@ -9,37 +9,10 @@ namespace {
 using namespace detail;
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 20> root_keys = {
-    "name",  "description", "source",    "material",    "setting", "thickness",      "spacing",
-    "shape", "holes",       "notches",   "arrangement", "method",  "initial_stress", "boundaries",
-    "loads", "gauges",      "toughness", "stages",      "stop",    "output"};
-
-/// Puts what an object says in place of the same keys of the file that it names.
-void replace_members(JsonValue& file, const JsonValue& given) {
-  for (const JsonValue& own : given.items) {
-    if (own.key == "file") continue;
-    JsonValue* old = member(file, own.key);
-    (old != nullptr ? *old : file.items.emplace_back()) = own;
-  }
-}
-
-/// The material, and the file's content in place of its name.
-std::optional<io::MaterialFile> read_material_of(const InputReader& r, JsonValue& root) {
-  const Place top(root);
-  const JsonValue* given = r.required(top, "material");
-  if (given == nullptr) return std::nullopt;
-  std::optional<NamedTree> file;
-  auto material = io::material_at(r, Place(top, *given), [&](const Place& name) -> std::optional<io::MaterialFile> {
-    file = load_tree(r, name, "material file");
-    if (!file) return std::nullopt;
-    return io::read_material(InputReader(file->shown_as, r.limits(), r.problems()), Place(file->root), file->stem);
-  });
-  if (!file) return material;
-  if (given->is(JsonValue::Kind::object)) replace_members(file->root, *given);
-  file->root.key = given->key;
-  *member(root, "material") = std::move(file->root);
-  return material;
-}
+constexpr std::array<std::string_view, 21> root_keys = {
+    "name",       "description", "source",  "material",  "setting",     "thickness", "spacing",
+    "shape",      "holes",       "notches", "regions",   "arrangement", "method",    "initial_stress",
+    "boundaries", "loads",       "gauges",  "toughness", "stages",      "stop",      "output"};
 
 /// Kernel gradients keep constant stress in equilibrium where all neighbourhoods are alike: on lattices.
 void judge_operator(Scene& scene) {
@@ -123,14 +96,18 @@ Scene read_tree(JsonValue& root, const std::string& origin, const io::ReadLimits
     r.known_keys(top, root_keys);
     read_header(r, top, scene);
   }
-  const auto material = read_material_of(r, root);
+  const auto material = read_material_of_scene(r, root);
+  const JsonValue* first = material ? root.find("material") : nullptr;
+  const std::vector<std::size_t> of_regions = add_materials(r, root, "regions", first, true, scene);
+  const std::vector<std::size_t> of_boundaries = add_materials(r, root, "boundaries", first, false, scene);
   const Place top(root);
   const std::vector<std::string> gauges = gauge_names(root);
   with(top, "method", [&](const Place& p) { read_method(r, p, scene.options); });
   read_body(r, top, scene);
   read_arrangement(r, top, scene);
+  with(top, "regions", [&](const Place& p) { read_regions(r, p, of_regions, scene); });
   with(top, "initial_stress", [&](const Place& p) { scene.initial_stress = read_stress(r, p); });
-  with_required(r, top, "boundaries", [&](const Place& p) { read_boundaries(r, p, gauges, scene); });
+  with_required(r, top, "boundaries", [&](const Place& p) { read_boundaries(r, p, gauges, of_boundaries, scene); });
   with(top, "loads", [&](const Place& p) { read_loads(r, p, scene); });
   with_required(r, top, "gauges", [&](const Place& p) { read_gauges(r, p, scene); });
   read_toughness(r, root, scene);
@@ -139,7 +116,12 @@ Scene read_tree(JsonValue& root, const std::string& origin, const io::ReadLimits
   if (material) {
     scene.parameters = material->parameters;
     scene.material_name = material->name;
-    scene.warnings = io::check_material(*material, scene.parameters, scene.setting, std::nullopt, problems);
+    for (const std::string& w :
+         io::check_material(*material, scene.parameters, scene.setting, std::nullopt, problems)) {
+      if (std::find(scene.warnings.begin(), scene.warnings.end(), w) == scene.warnings.end()) {
+        scene.warnings.push_back(w);
+      }
+    }
     const std::string why = why_unfit(scene.options.method, scene.parameters.choices);
     if (!why.empty()) r.problem(top, why);
   }

@@ -136,7 +136,8 @@ class Runner {
     const std::vector<double> pieces = piece_areas(all, scene_.body.notches, scene_.spacing);
     write_crack(files_.crack, paths);
     const double alternation = run_.alternation() / largest_opening(run_);
-    const Findings f = findings(scene_, result.history, opened_length(all, scene_.spacing), alternation);
+    const Findings f = findings(scene_, result.history, opened_length(all, scene_.spacing), alternation,
+                                mean_fracture_energy(run_, specimen_));
     result.warnings = warnings_of(scene_, result.history, f);
     result.warnings.insert(result.warnings.end(), stages_.warnings().begin(), stages_.warnings().end());
     const double overlap = run_.overlap();

@@ -105,7 +105,10 @@ struct ActuationRules {
 bool read_actuations(const InputReader& r, const Place& boundary, const ActuationRules& rules, Actuations& drive,
                      std::array<bool, 2>* stated = nullptr);
 
-void read_boundaries(const InputReader& r, const Place& place, std::span<const std::string> gauges, Scene& scene);
+/// `materials`: numbers of the materials of the regions, of the boundaries.
+void read_regions(const InputReader& r, const Place& place, std::span<const std::size_t> materials, Scene& scene);
+void read_boundaries(const InputReader& r, const Place& place, std::span<const std::string> gauges,
+                     std::span<const std::size_t> materials, Scene& scene);
 void read_loads(const InputReader& r, const Place& place, Scene& scene);
 void read_method(const InputReader& r, const Place& place, sph::Options<2>& options);
 void read_gauges(const InputReader& r, const Place& place, Scene& scene);

@@ -12,6 +12,7 @@
 #include "fpz/specimen/surface_shares.hpp"
 #include "fpz/sph/area_vectors.hpp"
 #include "gauge_kinds.hpp"
+#include "material_map.hpp"
 
 namespace fpz::specimen {
 namespace {
@@ -133,7 +134,8 @@ Specimen make_specimen(const Scene& scene) {
   }
   for (const Notch& n : scene.body.notches) {
     sph::Cut<2> cut = cut_in(scene.body, n, scene.spacing);
-    cut.friction = std::tan(degree * n.friction_angle_deg.value_or(scene.parameters.friction_angle_deg));
+    cut.friction = std::tan(degree * n.friction_angle_deg.value_or(
+                                         detail::parameters_at(scene, 0.5 * (n.mouth + n.tip)).friction_angle_deg));
     s.setup.arrangement.cuts.push_back(cut);
   }
   if (!scene.particles) s.setup.arrangement.surface = surface_lines(scene.body, 0.25 * scene.spacing);
@@ -150,6 +152,8 @@ Specimen make_specimen(const Scene& scene) {
     group.name = b.name;
     for (std::size_t c = 0; c < 2; ++c) {
       if (b.drive[c]) group.drive[c] = b.drive[c]->starting(0.0, 0.0, 0.0, scene.thickness);
+      // Under no force, but with one velocity.
+      if (b.rigid && !b.drive[c]) group.drive[c] = sph::Drive(sph::Drive::Kind::force, sph::TimeTable::constant(0.0));
     }
     group.elastic = b.elastic;
     if (b.platen && b.platen->friction) {
@@ -162,6 +166,11 @@ Specimen make_specimen(const Scene& scene) {
     s.setup.groups.push_back(group);
   }
   s.setup.parameters = scene.parameters;
+  try {
+    detail::assign_materials(scene, s.setup);
+  } catch (const std::invalid_argument& e) {
+    fail(scene, e.what());
+  }
   s.setup.setting = scene.setting;
   if (scene.initial_stress) s.setup.initial_stress = *scene.initial_stress;
   s.setup.options = scene.options;
@@ -176,6 +185,21 @@ Specimen make_specimen(const Scene& scene) {
     s.gauges.emplace(name, std::visit([&](const auto& kind) { return detail::bind(kind, to); }, gauge));
   }
   return s;
+}
+
+double mean_fracture_energy(const sph::Simulation<2>& run, const Specimen& specimen) {
+  const sph::Particles<2>& p = run.particles();
+  const auto energy = [&](std::size_t material) {
+    const Parameters& m = parameters_of(specimen.setup, material);
+    return m.tensile_strength * m.delta0;
+  };
+  double sum = 0.0, weight = 0.0;
+  for (std::size_t i = 0; i < p.count; ++i) {
+    if (p.kind[i] != sph::kind::cracked) continue;
+    const double opened = p.volume[i] * (1.0 - p.point[i].crack.integrity);
+    sum += opened * energy(specimen.setup.materials.of(p.id[i])), weight += opened;
+  }
+  return weight > 0.0 && specimen.setup.materials.count() > 1 ? sum / weight : energy(0);
 }
 
 double largest_opening(const sph::Simulation<2>& run) {
@@ -207,7 +231,10 @@ std::vector<Spot> spots(const sph::Simulation<2>& run, const Specimen& specimen)
 PointCloud frame_of(const sph::Simulation<2>& run, const Specimen& specimen) {
   const sph::Particles<2>& p = run.particles();
   const sph::Arrangement<2>& a = specimen.setup.arrangement;
-  const Elasticity<double> bulk = make_material(specimen.setup.parameters, specimen.setup.setting).bulk;
+  std::vector<Elasticity<double>> bulk;
+  for (std::size_t k = 0; k < specimen.setup.materials.count(); ++k) {
+    bulk.push_back(make_material(parameters_of(specimen.setup, k), specimen.setup.setting).bulk);
+  }
   const bool updated = is_updated(specimen);
   PointCloud cloud;
   cloud.time = run.time();
@@ -252,9 +279,14 @@ PointCloud frame_of(const sph::Simulation<2>& run, const Specimen& specimen) {
     vector(displacement, p.position[0][i] - p.start[0][i], p.position[1][i] - p.start[1][i]);
     Tensor<double, 2> components;
     components << stress(0, 0), stress(1, 1), stress(0, 1);
-    elastic.push_back(elastic_energy<2>(bulk, components, 1.0));
+    elastic.push_back(elastic_energy<2>(bulk[specimen.setup.materials.of(id)], components, 1.0));
     dissipated.push_back(cracked ? p.point[i].crack.dissipated : 0.0);
     length.push_back(cracked ? p.length[i] : 0.0);
+  }
+  if (bulk.size() > 1) {
+    auto& material = add("material", 1);
+    for (std::size_t id = 0; id < a.size(); ++id)
+      material.push_back(static_cast<double>(specimen.setup.materials.of(id)));
   }
   return cloud;
 }

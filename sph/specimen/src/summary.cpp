@@ -8,6 +8,7 @@
 
 #include "fpz/io/material_file.hpp"
 #include "fpz/sph/option_table.hpp"
+#include "material_map.hpp"
 
 namespace fpz::specimen {
 namespace {
@@ -65,13 +66,25 @@ Json method_json(const sph::Options<2>& options) {
   return j;
 }
 
-Json material_json(const Scene& scene) {
-  Json j = {{"name", scene.material_name}};
+Json material_json(const std::string& name, const Parameters& parameters) {
+  Json j = {{"name", name}};
   for (const auto& p : parameter_table<double>) {
-    if (p.of_material) j[std::string(p.name)] = scene.parameters.*p.member;
+    if (p.of_material) j[std::string(p.name)] = parameters.*p.member;
   }
-  io::put_choices(j, scene.parameters.choices);
+  io::put_choices(j, parameters.choices);
   return j;
+}
+
+/// All of them, by the numbers that the frames have.
+Json materials_json(const Scene& scene, const sph::RunSetup<2>& setup) {
+  Json list = Json::array();
+  for (const detail::MaterialShare& share : detail::material_shares(scene, setup)) {
+    Json j = material_json(share.name, *share.parameters);
+    j["particles"] = share.particles;
+    j["area"] = share.area;
+    list.push_back(std::move(j));
+  }
+  return list;
 }
 
 Json stages_json(const std::vector<EndedStage>& stages) {
@@ -96,10 +109,11 @@ Json energies_json(const History& h) {
 
 }  // namespace
 
-Findings findings(const Scene& scene, const History& h, double opened, double alternation) {
+Findings findings(const Scene& scene, const History& h, double opened, double alternation,
+                  std::optional<double> fracture_energy) {
   Findings f;
   f.alternation = alternation;
-  f.fracture_energy = scene.parameters.tensile_strength * scene.parameters.delta0;
+  f.fracture_energy = fracture_energy.value_or(scene.parameters.tensile_strength * scene.parameters.delta0);
   f.crack_area = opened * scene.thickness;
   if (h.rows() == 0) return f;
   const std::size_t peak = peak_row(h);
@@ -292,7 +306,8 @@ std::string summary_text(const SummaryInput& in) {
   j["kinetic_over_internal"] = {{"before_peak", number(f.kinetic_ratio)},
                                 {"after_peak", number(f.kinetic_ratio_after)}};
   j["load_support_imbalance"] = number(f.imbalance);
-  j["material"] = material_json(in.scene);
+  j["material"] = material_json(in.scene.material_name, in.scene.parameters);
+  if (!in.scene.further_materials.empty()) j["materials"] = materials_json(in.scene, in.specimen.setup);
   j["setting"] = to_string(in.scene.setting);
   j["method"] = method_json(in.scene.options);
   j["spacing"] = in.scene.spacing;

@@ -74,9 +74,8 @@ TEST(Materials, LayersInParallelAddTheirStiffnesses) {
   RunSetup<2> s = block(columns, rows);
   s.parameters = without_contraction(1.0);
   add_material(s, without_contraction(4.0), [](const Vector& x) { return x[1] > 6.0 * mm; });
-  add_group(s, {"held", {still, still}, true}, [](const Vector& x) {
-    return x[0] < 3.0 * mm || x[0] > (columns - 3) * mm;
-  });
+  add_group(s, {"held", {still, still}, true},
+            [](const Vector& x) { return x[0] < 3.0 * mm || x[0] > (columns - 3) * mm; });
   const double strain = 1e-5;
   StaticLoad<2> load;
   for (const Vector& x : s.arrangement.position) load.displacement.push_back(vec(strain * x[0], 0.0));
@@ -104,9 +103,8 @@ struct Inclusion {
     other.young_modulus *= 3.0;
     other.poisson_ratio = 0.1;
     add_material(setup, other, [](const Vector& x) { return x.norm() < radius; });
-    add_group(setup, {"rim", {still, still}, true}, [](const Vector& x) {
-      return x.cwiseAbs().maxCoeff() > half - 3.0 * mm;
-    });
+    add_group(setup, {"rim", {still, still}, true},
+              [](const Vector& x) { return x.cwiseAbs().maxCoeff() > half - 3.0 * mm; });
     plate = make_material(setup.parameters, setup.setting).bulk;
     disc = make_material(other, setup.setting).bulk;
   }

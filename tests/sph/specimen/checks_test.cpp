@@ -398,6 +398,51 @@ std::string row(double x, double y, double volume, int group) {
   return s.str();
 }
 
+TEST(Checks, Regions) {
+  const auto region = [](const std::string& shape, const std::string& material = R"({"density":2000})") {
+    return R"(regions=[{"name":"r","material":)" + material + R"(,"shape":)" + shape + "}]";
+  };
+  const std::string disc = R"({"type":"disc","centre":[0,0.04],"radius":0.02})";
+  expect_answers({
+      {refused,
+       beam,
+       {region(R"({"type":"disc","centre":[1,1],"radius":0.01})")},
+       {"regions[0].shape: it reaches from [0.99, 0.99] to [1.01, 1.01] and is outside the body"}},
+      {refused,
+       beam,
+       {region(R"([{"type":"disc","centre":[0,0.04],"radius":0.01},{"type":"disc","centre":[0,40],"radius":0.01}])")},
+       {"regions[0].shape[1]: it reaches from", "outside the body", "40 mm was probably meant: write 0.04"}},
+      {warned,
+       beam,
+       {region(R"({"type":"rectangle","low":[-1,-1],"high":[1,1]})")},
+       {"regions[0].shape: it covers the whole body, of which nothing has the \"material\" of the scene"}},
+      {warned,
+       beam,
+       {region(R"({"type":"rectangle","low":[-0.1,0.04],"high":[0.1,0.046]})")},
+       {"regions[0].shape: it is 0.006 m wide, less than two spacings"}},
+      {refused,
+       beam,
+       {region(R"({"type":"disc","centre":[0,0.04],"radius":0.0005})")},
+       {"regions[0] = \"r\": no particle is in it"}},
+      {refused, beam, {region(disc, R"("nowhere.json")")}, {"regions[0].material: cannot read material file"}},
+      {refused, beam, {region(disc, R"({"youngs":2e9})")}, {"regions[0].material", "unknown key \"youngs\""}},
+      {refused, beam, {region(disc, R"({"young_modulus":30})")}, {"regions[0].material.young_modulus = 30", "GPa"}},
+      {refused, beam, {region(disc, R"({"cohesion":1e4})")}, {"regions[0].material.cohesion", "must be >"}},
+      {warned,
+       beam,
+       {region(disc, R"({"delta0":5e-7})")},
+       {"regions[0].material: the spacing, 0.004, is too coarse for this material"}},
+      {refused,
+       beam,
+       {R"(regions=[{"name":"r","shape":{"type":"disc","radius":0.01}}])"},
+       {"regions[0]", "missing", "material"}},
+      {refused,
+       beam,
+       {R"(boundaries[0].hinge=true)", "boundaries[0].rigid=true"},
+       {"boundaries[0].rigid: one with a \"hinge\" is rigid already"}},
+  });
+}
+
 TEST(Checks, ParticlesFromAFile) {
   ParticleFileScene file;
   const Overrides stiff = {"material.shear_stiffness=1e14"};

@@ -91,7 +91,8 @@ TEST(ShippedShear, AnInclinedJointClimbsAgainstTheMachine) {
                 0.01 * slip * rise);
   }
   const double k = machine * rise, wanted = k / (1.0 + k * steep / sticking + machine / normal_stiffness);
-  const double slope = (h.at(end, "normal") - h.at(begin, "normal")) / (h.last("deflection") - h.at(begin, "deflection"));
+  const double slope =
+      (h.at(end, "normal") - h.at(begin, "normal")) / (h.last("deflection") - h.at(begin, "deflection"));
   EXPECT_NEAR(slope, wanted, 0.02 * wanted);
   EXPECT_GT(h.at(end, "normal"), 1.4 * n0);
 }

@@ -29,9 +29,24 @@ struct Boundary {
   std::optional<Platen> platen;  ///< none: its particles come from the particle file
   Actuations drive;              ///< per component; none: free
   bool elastic = true;
+  bool rigid = false;        ///< all its particles have one velocity in free components too
+  std::size_t material = 0;  ///< number, see Scene::further_materials
   /// It turns freely as a rigid body about a point: this one, or where none is given the middle of its foot.
   bool hinged = false;
   std::optional<Point> hinge;
+};
+
+/// A material besides that of the scene.
+struct SceneMaterial {
+  std::string name;
+  Parameters parameters;  ///< rve_length is 0
+};
+
+/// A part of the body that is of another material.
+struct Region {
+  std::string name;
+  std::size_t material = 0;   ///< number, see Scene::further_materials
+  std::vector<Shape> shapes;  ///< together; none: the particle file says which particles are in it
 };
 
 /// A gauge beyond a value.
@@ -76,7 +91,9 @@ struct Scene {
   std::string name;
   std::string description;
   std::string material_name;
-  Parameters parameters;  ///< rve_length is 0: method.rve_length decides
+  Parameters parameters;                         ///< rve_length is 0: method.rve_length decides
+  std::vector<SceneMaterial> further_materials;  ///< of regions, then of boundaries: numbers 1, 2, ...
+  std::vector<Region> regions;                   ///< later ones cover earlier ones
   Setting setting = Setting::plane_strain;
   double thickness = 0.0;  ///< m
   double spacing = 0.0;    ///< m

@@ -40,13 +40,21 @@ struct Specimen {
 /// Without volumes all have spacing^2. Group -1 is the specimen, others are indices of boundaries.
 [[nodiscard]] sph::Arrangement<2> read_particles(const std::filesystem::path& file, double spacing);
 
+/// Column (or point data) `material` of such a file, a region's number for each particle, 0 for none; empty when it has
+/// no such column.
+[[nodiscard]] std::vector<int> read_particle_materials(const std::filesystem::path& file);
+
 /// The particles of the specimen for the crack measures (without boundary particles).
 [[nodiscard]] std::vector<Spot> spots(const sph::Simulation<2>& run, const Specimen& specimen);
+/// tensile_strength delta0 of what has cracked, mean over volume times damage, J/m^2; of the first material where
+/// nothing has.
+[[nodiscard]] double mean_fracture_energy(const sph::Simulation<2>& run, const Specimen& specimen);
 /// Largest jump of a cracked particle, m; NaN without a crack.
 [[nodiscard]] double largest_opening(const sph::Simulation<2>& run);
 
 /// All particles with their fields for a VTU file, in the order of the arrangement: group, damage, crack_normal, jump,
-/// stress (xx, yy, xy), velocity, displacement, elastic_energy (J/m^3), dissipated_energy (per crack area, J/m^2).
+/// stress (xx, yy, xy), velocity, displacement, elastic_energy (J/m^3), dissipated_energy (per crack area, J/m^2);
+/// material, where there are several.
 [[nodiscard]] PointCloud frame_of(const sph::Simulation<2>& run, const Specimen& specimen);
 
 /// Size of the file of such a frame, about.

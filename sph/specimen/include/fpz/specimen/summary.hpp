@@ -15,7 +15,7 @@ struct Findings {
   double stiffness = 0.0;              ///< slope of load over deflection between 10 and 40 % of the peak, before it
   double crack_area = 0.0;             ///< opened_length() times thickness, m^2
   double fracture_energy_ratio = 0.0;  ///< dissipated by fracture over crack_area times G
-  double fracture_energy = 0.0;        ///< G = tensile_strength delta0, J/m^2
+  double fracture_energy = 0.0;        ///< G = tensile_strength delta0 of what has cracked, J/m^2
   std::optional<StressIntensity> toughness;  ///< at the peak load; none where the scene does not say how
   double kinetic_ratio = 0.0;        ///< largest kinetic over (elastic + fracture) energy between half the peak and it
   double kinetic_ratio_after = 0.0;  ///< the same after the peak
@@ -26,8 +26,10 @@ struct Findings {
   double motion_ratio = 0.0;         ///< largest (kinetic + viscous) energy gained over the external work of its row
 };
 
-/// `opened`: opened_length(), m; `alternation`: as in Findings.
-[[nodiscard]] Findings findings(const Scene& scene, const History& history, double opened, double alternation);
+/// `opened`: opened_length(), m; `alternation`, `fracture_energy`: as in Findings; without the latter it is that of the
+/// scene's material.
+[[nodiscard]] Findings findings(const Scene& scene, const History& history, double opened, double alternation,
+                                std::optional<double> fracture_energy = std::nullopt);
 
 /// Why the run cannot be right: less than nothing is stored. Empty otherwise.
 [[nodiscard]] std::string error_of_the_model(const Scene& scene, const Findings& f);
