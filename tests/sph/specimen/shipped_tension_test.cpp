@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "shipped.hpp"
 
@@ -75,6 +76,98 @@ TEST(ShippedTension, LPanelBreaksAtThePeakOfTheTests) {
   EXPECT_LT(crack.left, 0.17);
   EXPECT_GT(crack.low, 0.25 - 2.0 * r.scene.spacing);
   EXPECT_LT(crack.high, 0.29);
+}
+
+std::size_t row_of_first_crack(const History& h) {
+  std::size_t row = 0;
+  while (row + 1 < h.rows() && h.at(row, "damaged_particles") == 0.0) ++row;
+  return row;
+}
+
+/// Between flat platens and between jaws: the stresses of the closed form at the centre while the disc is elastic, and
+/// the first crack when the one across the load reaches the strength. The process zone, twice the diameter, lets the
+/// load rise a little; the crack lies along it.
+TEST(ShippedTension, BrazilianDiscsSplitAtTheLoadOfTheClosedForm) {
+  constexpr double diameter = 0.05, thickness = 0.025;
+  for (const char* name : {"brazilian_jaws", "brazilian_flat"}) {
+    const ShippedRun r = run_shipped(name, {"spacing=0.001", "stop.load_below=0.8"});
+    EXPECT_NE(r.result.reason.find("stop.load_below"), std::string::npos) << r.result.reason;
+    const History& h = r.history();
+    const double splitting = 0.5 * std::numbers::pi * diameter * thickness * r.scene.parameters.tensile_strength;
+    std::size_t half = 0;
+    while (h.at(half, "load") < 0.5 * splitting) ++half;
+    const double unit = 2.0 * h.at(half, "load") / (std::numbers::pi * diameter * thickness);
+    EXPECT_NEAR(h.at(half, "sxx"), unit, 0.04 * unit) << name;
+    EXPECT_NEAR(h.at(half, "syy"), -3.0 * unit, 0.04 * 3.0 * unit) << name;
+    EXPECT_NEAR(h.at(row_of_first_crack(h), "load"), splitting, 0.04 * splitting) << name;
+    EXPECT_GT(r.found.peak_load, splitting) << name;
+    EXPECT_LT(r.found.peak_load, 1.1 * splitting) << name;
+    EXPECT_LT(r.found.kinetic_ratio, 0.01) << name;
+    // The tips of the wedges under the platens aside.
+    double beside = 0.0, along = 0.0;
+    for (const Spot& s : r.spots) {
+      if (s.damage < 0.5 || std::abs(s.at[1]) > 0.3 * diameter) continue;
+      beside = std::max(beside, std::abs(s.at[0]));
+      along = std::max(along, std::abs(s.at[1]));
+    }
+    EXPECT_LT(beside, 4.0 * r.scene.spacing) << name;
+    EXPECT_GT(along, 0.2 * diameter) << name;
+  }
+}
+
+/// A central crack along the load and one in pure mode II. The peak of the first is below that of linear fracture
+/// mechanics with K_Ic^2 = E' G, and above that for a crack that is longer by half of the process zone E' G/strength^2
+/// at either tip; wings grow from the tips towards the jaws.
+TEST(ShippedTension, CrackedDiscsGrowWingsToTheJaws) {
+  constexpr double radius = 0.05, thickness = 0.025, half = 0.015, spacing = 0.0015;
+  const std::string coarse = "spacing=" + std::to_string(spacing);
+  const ShippedRun straight = run_shipped("cracked_disc", {coarse, "stop.load_below=0.95"});
+  const fpz::Parameters& m = straight.scene.parameters;
+  const double modulus = m.young_modulus / (1.0 - m.poisson_ratio * m.poisson_ratio);
+  const double energy = straight.found.fracture_energy, zone = modulus * energy / std::pow(m.tensile_strength, 2);
+  // K_I = P sqrt(a)/(sqrt(pi) R) N_I; for N_I at the angle 0 see shipped_elastic_test.cpp, here with the next terms.
+  const auto linear = [&](double a, double factor) {
+    return std::sqrt(modulus * energy * std::numbers::pi / a) * radius * thickness / factor;
+  };
+  EXPECT_NEAR(linear(half, 1.135551), 25.5e3, 0.1e3);
+  EXPECT_LT(straight.found.peak_load, linear(half, 1.135551));
+  EXPECT_GT(straight.found.peak_load,
+            linear(half + 0.5 * zone, 1.35));  // a/R = 0.48, between 1.243 (0.4) and 1.387 (0.5)
+  const ShippedRun sheared = run_shipped("cracked_disc", {coarse, "stop.load_below=0.95", "notches[0].angle_deg=27.5",
+                                                          "notches[0].mouth=[0.0069263,-0.0133052]"});
+  EXPECT_LT(sheared.found.peak_load, straight.found.peak_load);
+  for (const ShippedRun* r : {&straight, &sheared}) {
+    const double angle = (r == &straight ? 0.0 : 27.5) * std::numbers::pi / 180.0;
+    const Point tip = half * Point(-std::sin(angle), std::cos(angle));
+    // Each wing begins at its tip and turns to the line of the load.
+    double nearest = 1e300, highest = 0.0, at_its_end = 0.0;
+    for (const Spot& s : r->spots) {
+      if (s.damage < 0.5 || s.at[1] < 0.0) continue;
+      nearest = std::min(nearest, (s.at - tip).norm());
+      if (s.at[1] > highest) highest = s.at[1], at_its_end = s.at[0];
+    }
+    EXPECT_LT(nearest, 2.0 * spacing) << angle;
+    EXPECT_GT(highest, tip[1] + 0.005) << angle;
+    EXPECT_LT(std::abs(at_its_end), std::max(std::abs(tip[0]), 2.0 * spacing)) << angle;
+  }
+}
+
+/// Compact tension until after its peak: the stiffness of ASTM E399 for displacements on the load line (with grips at
+/// the edges in place of pins), the crack on the ligament, the peak below that of linear fracture mechanics.
+TEST(ShippedTension, CompactTensionBeginsAsTheStandardSays) {
+  const ShippedRun r = run_shipped("compact_tension", {"spacing=0.004"});
+  EXPECT_NE(r.result.reason.find("stop.load_below"), std::string::npos) << r.result.reason;
+  const fpz::Parameters& m = r.scene.parameters;
+  const double modulus = m.young_modulus / (1.0 - m.poisson_ratio * m.poisson_ratio), a = 0.4, w = 0.1, b = 0.05;
+  const double compliance = std::pow((1.0 + a) / (1.0 - a), 2) *
+                            (2.163 + a * (12.219 + a * (-20.065 + a * (-0.9925 + a * (20.609 - 9.9314 * a))))) /
+                            (modulus * b);
+  EXPECT_NEAR(r.found.stiffness * compliance, 1.0, 0.1);
+  const double f = (2.0 + a) * (0.886 + a * (4.64 + a * (-13.32 + a * (14.72 - 5.6 * a)))) / std::pow(1.0 - a, 1.5);
+  EXPECT_LT(r.found.peak_load, std::sqrt(modulus * r.found.fracture_energy * w) * b / f);
+  const Extent crack = fpz::test::cracked_extent(r.spots);
+  EXPECT_NEAR(crack.left, 0.04, 1.5 * r.scene.spacing);
+  EXPECT_LT(std::max(-crack.low, crack.high), 2.0 * r.scene.spacing);
 }
 
 }  // namespace
