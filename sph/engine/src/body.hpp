@@ -34,6 +34,9 @@ class Body {
   /// The bonds that were cut since the last call.
   [[nodiscard]] std::vector<ReleasedBond<Dim>> take_released() { return std::exchange(fresh_, {}); }
 
+  /// Whether cracks have left a particle so few bonds that hardly anything holds it.
+  [[nodiscard]] virtual bool is_loose(std::size_t) const { return false; }
+
   [[nodiscard]] const NeighbourLists& lists() const { return lists_; }
   [[nodiscard]] long long builds() const { return builds_; }      ///< of the neighbour lists
   [[nodiscard]] long long released() const { return released_; }  ///< bonds cut by cracks

@@ -1,5 +1,6 @@
 #include "bond_rows.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -12,6 +13,16 @@ constexpr double near = 1.5;
 /// Part of the moment that every row must keep. On a lattice along the crack 0.78 is left; rows that keep less have
 /// corrections, and with them frequencies, that the time step was not made for.
 constexpr double kept_moment = 0.7;
+/// The inverse of a matrix; singular values s below the least take s/least^2, which is continuous and goes to zero.
+Full bounded_inverse(const Full& m, double least) {
+  const Eigen::Matrix2d a{{m.xx, m.xy}, {m.yx, m.yy}};
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> gram;
+  gram.computeDirect(a.transpose() * a);
+  const Eigen::Vector2d inverse = gram.eigenvalues().cwiseMax(least * least).cwiseInverse();
+  const Eigen::Matrix2d l =
+      gram.eigenvectors() * inverse.asDiagonal() * gram.eigenvectors().transpose() * a.transpose();
+  return {l(0, 0), l(0, 1), l(1, 0), l(1, 1)};
+}
 }  // namespace
 
 template <int Dim>
@@ -20,6 +31,7 @@ BondRows<Dim>::BondRows(RunData<Dim>& run, NeighbourLists& lists, Bonds<Dim>& bo
       lists_(lists),
       bonds_(bonds),
       leans_(run.particles.count, 0.0),
+      has_lost_(run.particles.count, 0),
       width_(run.particles.count, Width::whole) {
   const Options<Dim>& o = run.setup.options;
   bonds_ = pack<Dim>(lists_, run.particles.padded(), false);
@@ -79,8 +91,10 @@ bool BondRows<Dim>::narrow(std::size_t i) {
 
 template <int Dim>
 void BondRows<Dim>::cut(std::size_t i, int j) {
+  const auto k = static_cast<std::size_t>(j);
   std::erase(lists_[i], j);
-  std::erase(lists_[static_cast<std::size_t>(j)], static_cast<int>(i));
+  std::erase(lists_[k], static_cast<int>(i));
+  has_lost_[i] = has_lost_[k] = 1;
 }
 
 template <int Dim>
@@ -92,6 +106,7 @@ Full BondRows<Dim>::moment(std::size_t i) const {
 template <int Dim>
 Full BondRows<Dim>::correction(std::size_t i) const {
   const Full m = moment(i);
+  if (has_lost_[i] != 0) return bounded_inverse(m, least_whole);
   if (!vectors_) return full(correction_of(Symmetric{m.xx, m.yy, m.xy}));
   return correction_of(m);
 }

@@ -22,6 +22,8 @@ class BondRows {
   void write_all();
 
   [[nodiscard]] const std::vector<int>& neighbours(std::size_t i) const { return lists_[i]; }
+  /// Whether lost bonds have left a row too little for a whole gradient.
+  [[nodiscard]] bool is_loose(std::size_t i) const { return has_lost_[i] != 0 && least_moment(i) < least_whole; }
   /// Drops the bond on both sides; the rows of both are to be written.
   void cut(std::size_t i, int j);
 
@@ -43,7 +45,7 @@ class BondRows {
     }
     return s;
   }
-  /// L_i of eq 18.
+  /// L_i of eq 18; of a row that has lost most of its bonds less than that.
   [[nodiscard]] Full correction(std::size_t i) const;
   /// The gradient of a crack that the neighbours of a particle see along it, over that across it: derivatives along
   /// the crack are then taken in the direction t - lean n. Sets L_i, without it correction().
@@ -51,14 +53,19 @@ class BondRows {
   /// Of a row that is to be written.
   void forget_lean(std::size_t i) { leans_[i] = 0.0; }
 
-  /// Leans and narrowed rows; after reading, all rows are to be written.
+  /// Leans, narrowed rows and those that have lost bonds; after reading, all rows are to be written.
   template <class Archive, class Self>
   static void transfer(Archive& archive, Self& self) {
     archive(self.leans_);
     archive(self.width_);
+    archive(self.has_lost_);
   }
 
  private:
+  /// Part of the moment below which a row that has lost bonds sees less than the whole gradient: a straight face leaves
+  /// 0.5. The few bonds of what is nearly loose would otherwise have frequencies beyond the time step.
+  static constexpr double least_whole = 0.35;
+
   static void add_product(Full& sum, const Vec<double, Dim>& a, const Vec<double, Dim>& b) {
     sum.xx += a[0] * b[0];
     sum.xy += a[0] * b[1];
@@ -78,6 +85,7 @@ class BondRows {
   Bonds<Dim>& bonds_;
   std::optional<BondVectors<Dim>> vectors_;  ///< none: those of the kernel
   Field leans_;
+  Mask has_lost_;  ///< a bond was cut
   enum class Width : char { whole, narrow, refused };
   std::vector<Width> width_;
 };

@@ -96,12 +96,6 @@ void drop_without_share(NeighbourLists& lists, const std::vector<Cut<Dim>>& cuts
                   [&](const auto& p, const auto& q) { return share_of_bond(cuts, p, q, spacing) <= 0.0; });
 }
 
-void keep_apart(NeighbourLists& lists, const std::vector<int>& piece) {
-  for (std::size_t i = 0; i < lists.size(); ++i) {
-    std::erase_if(lists[i], [&](int j) { return piece[static_cast<std::size_t>(j)] != piece[i]; });
-  }
-}
-
 template <int Dim>
 std::vector<std::size_t> curve_order(const std::vector<Vec<double, Dim>>& points, double cell) {
   Vec<double, Dim> low = points.front();

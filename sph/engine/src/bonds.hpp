@@ -27,9 +27,6 @@ template <int Dim>
 void drop_without_share(NeighbourLists& lists, const std::vector<Cut<Dim>>& cuts, const Fields<Dim>& start,
                         double spacing);
 
-/// Drops the pairs of different pieces; `piece` tells to which one each particle belongs.
-void keep_apart(NeighbourLists& lists, const std::vector<int>& piece);
-
 /// Order of points along a Morton curve with cells of the given size: order[slot] is the point's index. Ties by index.
 template <int Dim>
 [[nodiscard]] std::vector<std::size_t> curve_order(const std::vector<Vec<double, Dim>>& points, double cell);

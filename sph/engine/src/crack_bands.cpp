@@ -157,7 +157,7 @@ void CrackBands<Dim>::follow() {
     const double largest = std::sqrt(*std::max_element(p.volume.begin(), volumes));
     lists_ = find_neighbours<Dim>(p.start, p.count, std::hypot(outer, window_length) * largest);
     separate<Dim>(lists_, run_.setup.arrangement.cuts, p.start);
-    keep_apart(lists_, run_.piece);
+    run_.keep_apart(lists_);
   }
   run_.for_chunks([this](Index first, Index last) { find_opened(first, last); });
   run_.for_chunks([this](Index first, Index last) { follow(first, last); });

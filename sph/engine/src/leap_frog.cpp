@@ -80,6 +80,7 @@ Outcome Engine<Dim>::find_bad() const {
       o.particle = p.id[i];
       o.time = run.now();
       o.speed = std::sqrt(v2);
+      o.loose = body->is_loose(i);
       return o;
     }
   }

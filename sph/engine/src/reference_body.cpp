@@ -26,7 +26,7 @@ BondRows<Dim> ReferenceBody<Dim>::make_rows() {
   const Arrangement<Dim>& a = run.setup.arrangement;
   this->lists_ = find_neighbours<Dim>(p.start, p.count, kernel_support * run.h);
   drop_without_share<Dim>(this->lists_, a.cuts, p.start, a.spacing);
-  keep_apart(this->lists_, run.piece);
+  run.keep_apart(this->lists_);
   return BondRows<Dim>(run, this->lists_, this->bonds_);
 }
 

@@ -21,6 +21,7 @@ class ReferenceBody final : public Body<Dim> {
   void force(const View<Dim>& view) override;
   void save(Writer& archive) const override;
   void load(Reader& archive) override;
+  [[nodiscard]] bool is_loose(std::size_t i) const override { return rows_.is_loose(i); }
 
  protected:
   [[nodiscard]] const Fields<Dim>& bond_positions() const override { return this->run_.particles.start; }

@@ -83,8 +83,21 @@ void RunData<Dim>::place_particles() {
     const double size = Dim == 2 ? std::sqrt(a.volume[k]) : std::cbrt(a.volume[k]);
     p.length[i] = o.rve_length.rule == RveLength::Rule::number ? o.rve_length.value : size;
     const int g = a.group[k];
+    group.push_back(g);
     piece.push_back(g >= 0 && !setup.groups[static_cast<std::size_t>(g)].bonded ? g + 1 : 0);
     p.kind[i] = g >= 0 && setup.groups[static_cast<std::size_t>(g)].elastic ? kind::elastic : kind::intact;
+  }
+}
+
+template <int Dim>
+void RunData<Dim>::keep_apart(NeighbourLists& lists) const {
+  const auto keeps_to_itself = [this](int g) { return setup.groups[static_cast<std::size_t>(g)].keeps_to_itself; };
+  const auto apart = [&](std::size_t i, std::size_t j) {
+    const int a = group[i], b = group[j];
+    return piece[i] != piece[j] || (a != b && a >= 0 && b >= 0 && (keeps_to_itself(a) || keeps_to_itself(b)));
+  };
+  for (std::size_t i = 0; i < lists.size(); ++i) {
+    std::erase_if(lists[i], [&](int j) { return apart(i, static_cast<std::size_t>(j)); });
   }
 }
 

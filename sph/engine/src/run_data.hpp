@@ -1,6 +1,7 @@
 // What all parts of a run share: set-up, constants, clock, particles, ledger, and how work is dealt out to threads.
 #pragma once
 
+#include "bonds.hpp"
 #include "fpz/options.hpp"
 #include "fpz/sph/simulation.hpp"
 #include "particle_materials.hpp"
@@ -34,6 +35,7 @@ struct RunData {
   Particles<Dim> particles;
   std::vector<std::size_t> slot_of;
   std::vector<int> piece;   ///< per particle: 0 of the body and what is bonded to it; its group + 1 where that is loose
+  std::vector<int> group;   ///< per particle, -1 of the body
   Fields<Dim> damping;      ///< 1 where local damping acts, 0 where the component is driven
   Fields<Dim> outer_force;  ///< of boundaries that push and of closed faces at n, N
   Mask flagged;             ///< of the last pass: the library must update the particle
@@ -54,6 +56,8 @@ struct RunData {
     view.damping_part = part;
     view.damped = view.damped || part > 0.0;
   }
+  /// Drops the pairs that never have bonds: of different pieces, and of a group that keeps to itself and another one.
+  void keep_apart(NeighbourLists& lists) const;
   [[nodiscard]] double now() const { return static_cast<double>(steps) * dt; }
 
   template <class Self, class Visit>

@@ -21,9 +21,24 @@ double courant_step(const RunSetup<Dim>& s) {
          std::sqrt(s.options.mass_scale);
 }
 
+namespace {
+
+template <int Dim>
+double most_damping(const RunSetup<Dim>& s) {
+  return std::max(s.options.damping, s.most_damping);
+}
+
+/// The longest time step of a run whose elastic body has the limit `elastic_limit` (s).
+template <int Dim>
+double longest_step(const RunSetup<Dim>& s, double elastic_limit) {
+  return stability_margin * elastic_limit / std::sqrt(1.0 + most_damping(s));
+}
+
+}  // namespace
+
 template <int Dim>
 double time_step(const RunSetup<Dim>& s) {
-  return std::min(courant_step(s), stability_margin * stability_limit(s));
+  return std::min(courant_step(s), longest_step(s, stability_limit(s)));
 }
 
 namespace {
@@ -38,7 +53,7 @@ std::unique_ptr<detail::Engine<Dim>> make_engine(const RunSetup<Dim>& setup) {
   auto engine = std::make_unique<detail::Engine<Dim>>(setup, 1.0);
   const double limit =
       setup.options.configuration == Configuration::reference ? engine->stability_limit() : stability_limit(setup);
-  engine->run.set_time_step(std::min(courant_step(setup), stability_margin * limit));
+  engine->run.set_time_step(std::min(courant_step(setup), longest_step(setup, limit)));
   return engine;
 }
 
@@ -115,6 +130,11 @@ void Simulation<Dim>::set_factor(std::size_t load, const TimeTable& factor) {
 }
 template <int Dim>
 void Simulation<Dim>::set_damping(double part) {
+  const double most = most_damping(engine_->run.setup);
+  if (!(part >= 0.0 && part <= most)) {
+    throw std::invalid_argument("damping = " + std::to_string(part) + ": must be within 0 and " + std::to_string(most) +
+                                ", the most that the set-up says (most_damping)");
+  }
   engine_->run.set_damping(part);
 }
 

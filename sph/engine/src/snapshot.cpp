@@ -10,7 +10,7 @@ namespace fpz::sph {
 
 namespace {
 
-constexpr std::uint64_t magic = 0x374850535a5046ULL;  // "FPZSPH7"; the last figure is the version
+constexpr std::uint64_t magic = 0x384850535a5046ULL;  // "FPZSPH8"; the last figure is the version
 
 /// Adds the options on which the result depends.
 struct OptionPrint {
@@ -60,6 +60,7 @@ std::uint64_t fingerprint(const RunSetup<Dim>& s) {
       if (d) w(*d);
     }
     w(g.bonded);
+    w(g.keeps_to_itself);
     w(g.hinge.has_value());
     if (g.hinge) w(*g.hinge);
   }

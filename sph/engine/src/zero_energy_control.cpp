@@ -24,7 +24,7 @@ ZeroEnergyControl<Dim>::ZeroEnergyControl(RunData<Dim>& run, double strength) : 
   const Particles<Dim>& p = run.particles;
   lists_ = find_neighbours<Dim>(p.start, p.count, kernel_support * control_smoothing * run.setup.arrangement.spacing);
   separate<Dim>(lists_, run.setup.arrangement.cuts, p.start);
-  keep_apart(lists_, run.piece);
+  run.keep_apart(lists_);
   bonds_ = pack<Dim>(lists_, p.padded(), false);
   stiffness_.assign(bonds_.entries(), 0.0);
   fields(*this, Allocate{p.padded()});

@@ -11,10 +11,12 @@ namespace {
 struct Footing {
   std::size_t columns = 0;
   std::vector<Point> feet;
+  Point direction = Point::Zero();  ///< outward, of length one
 };
 
 Footing footing_of(const Scene& scene, const Platen& platen) {
   Footing f;
+  f.direction = platen.direction.normalized();
   for (const std::optional<Point>& foot : platen_feet(scene.body.shape, platen, scene.spacing)) {
     ++f.columns;
     if (foot) f.feet.push_back(*foot);
@@ -104,6 +106,8 @@ void check_ground(const SceneCheck& c, const Place& p, const Platen& platen, con
 
 void check_overlap(const SceneCheck& c, const Place& p, const Footing& own, const std::vector<Footing>& earlier) {
   for (std::size_t k = 0; k < earlier.size(); ++k) {
+    constexpr double one_side = 0.5;  // cosine; platens on two sides of a corner stand apart
+    if (own.direction.dot(earlier[k].direction) < one_side) continue;
     double nearest = 1e300;
     for (const Point& a : own.feet) {
       for (const Point& b : earlier[k].feet) nearest = std::min(nearest, (a - b).norm());

@@ -156,6 +156,7 @@ Specimen make_specimen(const Scene& scene) {
       if (b.rigid && !b.drive[c]) group.drive[c] = sph::Drive(sph::Drive::Kind::force, sph::TimeTable::constant(0.0));
     }
     group.elastic = b.elastic;
+    group.keeps_to_itself = true;
     if (b.platen && b.platen->friction) {
       group.bonded = false;
       for (const sph::Cut<2>& cut : contact_of(scene.body.shape, *b.platen, scene.spacing)) {
@@ -174,6 +175,9 @@ Specimen make_specimen(const Scene& scene) {
   s.setup.setting = scene.setting;
   if (scene.initial_stress) s.setup.initial_stress = *scene.initial_stress;
   s.setup.options = scene.options;
+  for (const Stage& stage : scene.stages) {
+    s.setup.most_damping = std::max(s.setup.most_damping, stage.damping.value_or(0.0));
+  }
   if (scene.options.threads == 0) s.setup.options.threads = worthwhile_threads(a.size());
   add_loads(scene, s);
   fail_if_any(scene, problems(s.setup));

@@ -204,13 +204,42 @@ double force_between(Simulation<2>& run, double from, double to) {
   return sum / count;
 }
 
+/// Momentum of what goes with the upper platen, which has moved by 200 um.
+double momentum_above(const Simulation<2>& run) {
+  const Particles<2>& p = run.particles();
+  double sum = 0.0;
+  for (std::size_t i = 0; i < p.count; ++i) {
+    if (p.position[1][i] - p.start[1][i] > 100e-6) sum += p.mass[i] * p.velocity[1][i];
+  }
+  return sum;
+}
+
+/// Up to the last step before a moment.
+void advance_to(Simulation<2>& run, double time) {
+  while (run.time() + run.time_step() < time) advance(run, 1);
+}
+
+/// Mean force across the crack between two moments: what the piece above it gets, less what the platen gives it. It
+/// does not see how the piece vibrates.
+double crack_force_between(Simulation<2>& run, double from, double to) {
+  advance_to(run, from);
+  const double before = momentum_above(run), begin = run.time();
+  const double pushed = force_between(run, from, to);
+  return (momentum_above(run) - before) / (run.time() - begin) - pushed;
+}
+
 /// The faces of a crack open freely, and bear when they meet again: here by what the cracked rows have kept of their
 /// opening before it has gone back to zero.
 TEST(Contact, FacesOfACrackThatClosesAgain) {
   Simulation<2> with(torn_and_closed(10.0)), without(torn_and_closed(0.0));
   const double peak = force_between(with, 1.8e-4, 2.2e-4);
   EXPECT_NEAR(peak, force_between(without, 1.8e-4, 2.2e-4), 1e-9 * peak);
-  EXPECT_NEAR(force_between(with, 0.9e-3, 1e-3), force_between(without, 0.9e-3, 1e-3), 0.01 * peak);
+  // Open, but for one particle that still hangs between the faces and strikes them.
+  advance_to(with, 0.9e-3);
+  const double taken = with.energies().contact + with.energies().friction;
+  EXPECT_NEAR(crack_force_between(with, 0.9e-3, 1e-3), 0.0, 0.05 * peak);
+  EXPECT_NEAR(crack_force_between(without, 0.9e-3, 1e-3), 0.0, 0.05 * peak);
+  EXPECT_NEAR(with.energies().contact + with.energies().friction, taken, 1e-3 * with.energies().fracture);
   EXPECT_GT(with.released_bonds(), 50);
   EXPECT_LT(with.energies().contact, 1e-5 * with.energies().fracture);  // some bonds are cut before others
   EXPECT_LT(force_between(with, 1.98e-3, 2e-3), -peak);

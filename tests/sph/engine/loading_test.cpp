@@ -181,6 +181,7 @@ TEST(Loading, LoadsOnParticlesStretchABar) {
     s.options.configuration = c;
     s.options.artificial_stress = 0.0;
     s.options.damping = 0.2;
+    s.most_damping = 0.5;
     add_group(s, {"left", {still, std::nullopt}, true}, [](const Vector& x) { return x[0] < grip * size; });
     Load<2> load{"pull", {}, TimeTable::rise(0.0, force, 10.0 * period)};
     for (const Vector& x : s.arrangement.position) {
@@ -205,9 +206,26 @@ TEST(Loading, LoadsOnParticlesStretchABar) {
   }
 }
 
+/// Two platens that meet at a corner of the body do not hold each other.
+TEST(Loading, GroupsThatKeepToThemselvesHaveNoBonds) {
+  for (const Configuration c : both) {
+    for (const bool alone : {false, true}) {
+      RunSetup<2> s = block(4, 4, 0.0, size);
+      s.options.configuration = c;
+      add_group(s, {"left", {still, still}, true}, [](const Vector& x) { return x[0] < 2.0 * size; });
+      add_group(s, {"right", {Motion{0.01, 1e-6}, still}, true}, [](const Vector& x) { return x[0] > 2.0 * size; });
+      s.groups[0].keeps_to_itself = alone;
+      Simulation<2> run(s);
+      advance(run, 50);
+      EXPECT_EQ(run.reaction(0)[0] == 0.0, alone);
+    }
+  }
+}
+
 TEST(Loading, SnapshotsHaveDrivesAndLoads) {
   for (const Variant& v : variants) {
     RunSetup<2> s = torn(v);
+    s.most_damping = 0.3;
     s.groups[1].drive[0] =
         Drive{Drive::Kind::velocity, TimeTable{{0.0, 2e-5, 4e-5}, {0.0, 1.0, 0.5}, false, 0.0}, 1e11};
     Load<2> load{"push", {}, TimeTable{{0.0, 5e-5}, {0.0, 2e3}, false, 0.0}};

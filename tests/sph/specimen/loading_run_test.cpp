@@ -312,6 +312,17 @@ TEST(LoadingRun, ConfinedCompressionBreaksAtItsStrength) {
   EXPECT_NEAR(largest(r.history, "load"), strength, 0.06 * strength);  // ten rows between bonded platens
 }
 
+/// What is crushed and comes loose keeps its frequencies below the time step, up to the longest that the body bears.
+TEST(LoadingRun, CrushingDoesNotExplode) {
+  const Scene scene = read_scene(fs::path(FPZ_DATA_DIR) / "scenes/confined_compression.json",
+                                 {"spacing=0.004", "output.frames=0", "output.pictures=false", "method.courant=1",
+                                  R"(stages[1].stop={"time": 0.012})"});
+  const RunResult r = run(scene, "crushed");
+  EXPECT_NE(r.reason.find("stop.time"), std::string::npos) << r.reason;
+  EXPECT_LT(r.history.last("load"), 0.5 * largest(r.history, "load"));
+  EXPECT_LT(std::abs(r.history.last("energy_error")), 0.01 * r.history.last("energy_external"));
+}
+
 /// The shipped scene at 5 mm: the pressure stays while the platens close in, and the stiffness is that of plane strain
 /// with the lateral stress held.
 TEST(LoadingRun, ConfinedCompressionHoldsItsPressure) {

@@ -57,6 +57,8 @@ struct Group {
   /// Its particles have bonds with the body. Else it touches the body where a cut lies between them
   /// (Arrangement::cuts), by contact, in `reference`.
   bool bonded = true;
+  /// Its particles have no bonds with those of other groups: platens that meet at a corner of the body.
+  bool keeps_to_itself = false;
 };
 
 /// Forces that particles of the body feel, in a fixed pattern times a number that changes.

@@ -22,6 +22,7 @@ struct Outcome {
   std::size_t particle = 0;    ///< index in the arrangement
   double time = 0.0;           ///< s
   double speed = 0.0;          ///< m/s, of that particle
+  bool loose = false;          ///< its bonds were cut, so that few hold it
 
   [[nodiscard]] bool ok() const { return failure == Failure::none; }
   /// One sentence: what happened to which particle, when, why and what to change.

@@ -33,6 +33,7 @@ struct RunSetup {
   Materials materials;    ///< others than these parameters, where the body is not of one material
   Setting setting = Setting::plane_strain;
   Options<Dim> options;
+  double most_damping = 0.0;  ///< largest part that set_damping() will be given; the time step is stable with it
   std::vector<Vec<double, Dim>> velocity;  ///< at the start, per particle, m/s; empty: at rest
   /// Even stress at the start, Pa, tension positive; positions are those of the stressed body.
   Tensor<double, Dim> initial_stress = Tensor<double, Dim>::Zero();
@@ -60,7 +61,8 @@ template <int Dim>
 /// Part of the measured limit that a run uses at most.
 inline constexpr double stability_margin = 0.9;
 
-/// The time step of a run, s: eq 32, or stability_margin * stability_limit() where that is shorter.
+/// The time step of a run, s: eq 32, or stability_margin * stability_limit() where that is shorter. Local damping of a
+/// part a makes a force that opposes the velocity 1 + a times as large: the limit is that of a body as much stiffer.
 template <int Dim>
 [[nodiscard]] double time_step(const RunSetup<Dim>& setup);
 
@@ -99,7 +101,8 @@ class Simulation {
   void steer(std::size_t group, std::size_t component, double velocity);
   /// Changes the factor of a load from now on.
   void set_factor(std::size_t load, const TimeTable& factor);
-  /// Changes Options::damping from now on.
+  /// Changes Options::damping from now on. Throws std::invalid_argument above that and RunSetup::most_damping, for
+  /// which the time step was found.
   void set_damping(double part);
   /// Sums over all particles, in a fixed order.
   [[nodiscard]] Energies energies() const;
