@@ -99,6 +99,12 @@ void check_gauges(const SceneCheck& c) {
       if (const auto* s = std::get_if<StressGauge>(&gauge->second)) {
         with(p, "of", [&](const Place& of) { check_sites(c, of, {s->of}); });
       }
+      if (const auto* s = std::get_if<StrainGauge>(&gauge->second)) {
+        with(p, "of", [&](const Place& of) { check_sites(c, of, {s->of}); });
+      }
+      if (const auto* s = std::get_if<RotationGauge>(&gauge->second)) {
+        with(p, "rotation_of", [&](const Place& of) { check_sites(c, of, {s->of}); });
+      }
     }
   });
 }

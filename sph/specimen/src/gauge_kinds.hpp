@@ -12,7 +12,11 @@ struct GaugeKind {
   /// `gauge` is the whole object, `value` what stands at `key`.
   Gauge (*read)(const InputReader& r, const Place& gauge, const Place& value, const Scene& scene);
 };
-extern const GaugeKind force_gauge, displacement_gauge, notch_opening_gauge, stress_gauge;
+extern const GaugeKind force_gauge, displacement_gauge, notch_opening_gauge, stress_gauge, strain_gauge, rotation_gauge,
+    sum_gauge;
+
+/// What a sum needs of the other gauges of the scene, when all are read.
+void check_sum(const InputReader& r, const Place& gauge, const Scene& scene);
 
 /// "direction" of a gauge, a unit vector; zero when something is wrong with it.
 [[nodiscard]] Point read_gauge_direction(const InputReader& r, const Place& gauge);
@@ -40,6 +44,9 @@ struct GaugeBinding {
 [[nodiscard]] BoundGauge bind(const DisplacementGauge& gauge, const GaugeBinding& to);
 [[nodiscard]] BoundGauge bind(const OpeningGauge& gauge, const GaugeBinding& to);
 [[nodiscard]] BoundGauge bind(const StressGauge& gauge, const GaugeBinding& to);
+[[nodiscard]] BoundGauge bind(const StrainGauge& gauge, const GaugeBinding& to);
+[[nodiscard]] BoundGauge bind(const RotationGauge& gauge, const GaugeBinding& to);
+[[nodiscard]] BoundGauge bind(const SumGauge& gauge, const GaugeBinding& to);
 
 /// Indices of the particles of a site. Throws io::InputError when there are none in its box.
 [[nodiscard]] std::vector<std::size_t> particles_of(const Site& site, const GaugeBinding& to);

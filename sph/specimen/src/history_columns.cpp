@@ -72,7 +72,7 @@ std::vector<HistoryColumn> history_columns(const std::vector<std::string>& gauge
   append(counts());
   const std::vector<std::string> order = gauge_order(gauges);
   for (std::size_t k = steering_gauges.size(); k < order.size(); ++k) {
-    columns.push_back(gauge(order[k], k, "N, m or Pa", "gauge of the scene"));
+    columns.push_back(gauge(order[k], k, "N, m, Pa, rad or 1", "gauge of the scene"));
   }
   return columns;
 }

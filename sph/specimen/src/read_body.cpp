@@ -48,8 +48,12 @@ const Notch* notch_at(const InputReader& r, const Place& place, const Scene& sce
 }
 
 void read_body(const InputReader& r, const Place& root, Scene& scene) {
+  std::vector<Shape> holes_of_shape;
   with(root, "shape", [&](const Place& p) {
-    if (auto s = read_shape(r, p)) scene.body.shape = *s;
+    auto s = read_shape_with_holes(r, p);
+    if (!s) return;
+    scene.body.shape = std::move(s->shape);
+    holes_of_shape = std::move(s->holes);
   });
   with(root, "holes", [&](const Place& p) {
     if (!p.value().is(JsonValue::Kind::array)) return r.problem(p, "expected an array of shapes");
@@ -57,6 +61,7 @@ void read_body(const InputReader& r, const Place& root, Scene& scene) {
       if (auto s = read_shape(r, Place(p, item))) scene.body.holes.push_back(*s);
     }
   });
+  scene.body.holes.insert(scene.body.holes.end(), holes_of_shape.begin(), holes_of_shape.end());
   // Particles do not interact across a slot as wide as the support of the kernel.
   const double narrowest = sph::kernel_support * scene.options.smoothing_ratio * scene.spacing;
   with(root, "notches", [&](const Place& p) {

@@ -5,8 +5,8 @@
 namespace fpz::specimen::detail {
 namespace {
 
-constexpr std::array<const GaugeKind*, 4> gauge_kinds = {&force_gauge, &displacement_gauge, &notch_opening_gauge,
-                                                         &stress_gauge};
+constexpr std::array<const GaugeKind*, 7> gauge_kinds = {
+    &force_gauge, &displacement_gauge, &notch_opening_gauge, &stress_gauge, &strain_gauge, &rotation_gauge, &sum_gauge};
 
 /// Keys of all kinds, each once.
 std::vector<std::string_view> all_keys() {
@@ -51,14 +51,25 @@ std::optional<Gauge> read_gauge(const InputReader& r, const Place& place, const 
   return kind->read(r, place, Place(place, *place.value().find(kind->key)), scene);
 }
 
+/// Whether a gauge measures a force, or a displacement; a sum does so if all its terms do.
+bool measures_what(const Gauge& gauge, bool force, const Scene& scene) {
+  if (const auto* sum = std::get_if<SumGauge>(&gauge)) {
+    const auto fits = [&](const SumGauge::Term& t) {
+      const auto at = scene.gauges.find(t.gauge);
+      return at != scene.gauges.end() && !std::holds_alternative<SumGauge>(at->second) &&
+             measures_what(at->second, force, scene);
+    };
+    return sum->over.empty() && std::all_of(sum->terms.begin(), sum->terms.end(), fits);
+  }
+  if (force) return std::holds_alternative<ForceGauge>(gauge);
+  return std::holds_alternative<DisplacementGauge>(gauge) || std::holds_alternative<OpeningGauge>(gauge);
+}
+
 /// A gauge whose name has a meaning must be there and measure what the name says.
 void require_kind(const InputReader& r, const Place& place, const Scene& scene, const SteeringGauge& wanted) {
   const auto at = scene.gauges.find(std::string(wanted.name));
   if (at == scene.gauges.end()) return;
-  const bool fits = wanted.is_force ? std::holds_alternative<ForceGauge>(at->second)
-                                    : std::holds_alternative<DisplacementGauge>(at->second) ||
-                                          std::holds_alternative<OpeningGauge>(at->second);
-  if (fits) return;
+  if (measures_what(at->second, wanted.is_force, scene)) return;
   r.problem(Place(place, *place.value().find(wanted.name)),
             wanted.is_force ? "must measure a force" : "must measure a displacement");
 }
@@ -82,6 +93,7 @@ void read_gauges(const InputReader& r, const Place& place, Scene& scene) {
     if (is_computed_column(member.key)) r.problem(p, "this column exists already");
     if (auto gauge = read_gauge(r, p, scene)) scene.gauges.emplace(member.key, *gauge);
   }
+  for (const JsonValue& member : place.value().items) check_sum(r, Place(place, member), scene);
   for (const SteeringGauge& g : steering_gauges) {
     if (g.required) (void)r.required(place, g.name);
   }

@@ -77,14 +77,12 @@ std::vector<std::string> gauge_names(const JsonValue& root) {
 }
 
 /// Paths of other files as they are valid from anywhere: the scene's copy in the output folder reads the same.
-void make_paths_absolute(JsonValue& root, const Scene& scene) {
-  if (!scene.particles) return;
-  for (JsonValue& member : root.items) {
-    if (member.key != "arrangement") continue;
-    for (JsonValue& entry : member.items) {
-      if (entry.key == "file") entry.text = fs::absolute(scene.particles->file).lexically_normal().string();
-    }
-  }
+void make_paths_absolute(JsonValue& value, const fs::path& folder) {
+  for (JsonValue& member : value.items) make_paths_absolute(member, folder);
+  JsonValue* file = detail::member(value, "file");
+  const JsonValue* type = value.find("type");
+  if (file == nullptr || type == nullptr || (type->text != "file" && type->text != "outline")) return;
+  file->text = fs::absolute(folder / file->text).lexically_normal().string();
 }
 
 Scene read_tree(JsonValue& root, const std::string& origin, const io::ReadLimits& limits, io::Problems& problems) {
@@ -127,7 +125,7 @@ Scene read_tree(JsonValue& root, const std::string& origin, const io::ReadLimits
   }
   judge_operator(scene);
   if (problems.empty()) check_scene(r, top, scene);
-  make_paths_absolute(root, scene);
+  make_paths_absolute(root, fs::path(r.file()).parent_path());
   scene.text = to_text(root);
   return scene;
 }

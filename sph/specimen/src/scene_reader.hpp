@@ -83,6 +83,12 @@ template <class Kind, std::size_t N>
 /// The notch that `place` names by its index.
 [[nodiscard]] const Notch* notch_at(const InputReader& r, const Place& place, const Scene& scene);
 
+/// A shape; that of a file may have holes.
+struct ShapeWithHoles {
+  Shape shape;
+  std::vector<Shape> holes;
+};
+[[nodiscard]] std::optional<ShapeWithHoles> read_shape_with_holes(const InputReader& r, const Place& place);
 [[nodiscard]] std::optional<Shape> read_shape(const InputReader& r, const Place& place);
 void read_body(const InputReader& r, const Place& root, Scene& scene);
 void read_arrangement(const InputReader& r, const Place& root, Scene& scene);

@@ -45,11 +45,29 @@ struct StressGauge {
   Site of;
   PlaneComponent component = PlaneComponent::xx;
 };
-using Gauge = std::variant<ForceGauge, DisplacementGauge, OpeningGauge, StressGauge>;
+/// Mean strain of a site, extension positive; xy is half of the change of the right angle.
+struct StrainGauge {
+  Site of;
+  PlaneComponent component = PlaneComponent::xx;
+};
+/// Mean rotation of a site, rad, counter-clockwise.
+struct RotationGauge {
+  Site of;
+};
+/// Other gauges times factors; over another such sum, where there is one.
+struct SumGauge {
+  struct Term {
+    std::string gauge;
+    double factor = 1.0;
+  };
+  std::vector<Term> terms, over;
+};
+using Gauge =
+    std::variant<ForceGauge, DisplacementGauge, OpeningGauge, StressGauge, StrainGauge, RotationGauge, SumGauge>;
 
 /// A gauge that knows its particles.
 struct BoundGauge {
-  /// Its value at the present step, N, m or Pa. Forces are for the whole thickness (m).
+  /// Its value at the present step, in SI units. Forces are for the whole thickness (m).
   std::function<double(const sph::Simulation<2>& run, double thickness)> value;
   std::vector<std::vector<std::size_t>> sites;  ///< particles that it looks at, indices in the arrangement
 };
