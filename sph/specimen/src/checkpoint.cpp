@@ -8,7 +8,7 @@
 namespace fpz::specimen::detail {
 namespace {
 
-constexpr std::uint64_t magic = 0x33305055524b4346ULL;  // "FCKRUP03"
+constexpr std::uint64_t magic = 0x34305055524b4346ULL;  // "FCKRUP04"
 
 }  // namespace
 

@@ -32,14 +32,16 @@ struct Checkpoint {
   RecorderState recorder;
   FrameWriterState frames;
   StageState stages;
+  long long row_every = 1, frame_every = 0;  ///< steps: those of its own end, also when the run goes on to a later one
   WallTimes seconds;
   std::vector<unsigned char> snapshot;
 };
 
 template <class Archive, class C>
 void transfer(Archive& archive, C& checkpoint) requires std::same_as<std::remove_const_t<C>, Checkpoint> {
-  auto& [scene_text, recorder, frames, stages, seconds, snapshot] = checkpoint;
-  archive(scene_text), archive(recorder), archive(frames), archive(stages), archive(seconds), archive(snapshot);
+  auto& [scene_text, recorder, frames, stages, row_every, frame_every, seconds, snapshot] = checkpoint;
+  archive(scene_text), archive(recorder), archive(frames), archive(stages);
+  archive(row_every), archive(frame_every), archive(seconds), archive(snapshot);
 }
 
 void write_checkpoint(const std::filesystem::path& file, const Checkpoint& checkpoint);

@@ -35,6 +35,9 @@ class FrameWriter {
   /// How many frames a run writes, about; more when the load rises again after it has fallen.
   [[nodiscard]] double expected() const;
 
+  /// Steps between frames at equal intervals; 0: none.
+  void set_interval(long long every) { every_ = every; }
+
   [[nodiscard]] const FrameWriterState& state() const { return state_; }
   void restore(FrameWriterState state) { state_ = std::move(state); }
 

@@ -76,6 +76,7 @@ int run(const Arguments& a) {
   request.folder = a.out;
   request.force = a.force;
   request.resume = a.resume;
+  request.keep_checkpoint = true;
   request.threads = a.threads;
   request.most_steps = a.steps;
   request.interrupt = &interrupted;
@@ -191,7 +192,8 @@ int main(int argc, char** argv) try {
   };
   common(app);
   app.add_flag("--force", a.force, "replace the files of an earlier run");
-  app.add_flag("--resume", a.resume, "go on from the checkpoint in the output folder");
+  app.add_flag("--resume", a.resume,
+               "go on from the checkpoint in the output folder; after the end, to a later one (stop)");
   app.add_option("--steps", a.steps, "stop after so many steps with a checkpoint (for time limits)")
       ->check(CLI::PositiveNumber);
 

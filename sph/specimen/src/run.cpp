@@ -60,6 +60,7 @@ class Runner {
     if (result.ending == Ending::interrupted) {
       save();
     } else {
+      if (may_go_on(result)) save();
       write_end(result);
     }
     result.history = recorder_.history();
@@ -74,7 +75,7 @@ class Runner {
   void prepare() {
     io::make_writable_folder(request_.folder);
     if (request_.resume) {
-      checkpointer_.resume(run_, recorder_, frames_, stages_, earlier_);
+      checkpointer_.resume(run_, recorder_, frames_, stages_, schedule_, earlier_);
     } else {
       io::require_absent({files_.scene, files_.history, files_.summary, files_.checkpoint, files_.frames},
                          request_.force);
@@ -129,7 +130,12 @@ class Runner {
     io::write_text(files_.history, recorder_.history().to_csv(), true);
   }
 
-  /// Cracks, findings, summary. The checkpoint is of no use any more.
+  /// Whether the run has come to its end, and could go on to a later one.
+  [[nodiscard]] bool may_go_on(const RunResult& result) const {
+    return request_.keep_checkpoint && result.ending == Ending::finished;
+  }
+
+  /// Cracks, findings, summary.
   void sum_up(RunResult& result) const {
     const std::vector<Spot> all = spots(run_, specimen_);
     const std::vector<CrackPath> paths = crack_paths(all, scene_.spacing);
@@ -153,6 +159,7 @@ class Runner {
     }
     result.report = report_of(f);
     io::write_text(files_.summary, summary_text({scene_, specimen_, run_, result, f, paths, pieces}), true);
+    if (may_go_on(result)) return;
     std::error_code ignored;
     fs::remove(files_.checkpoint, ignored);
   }
@@ -172,7 +179,7 @@ class Runner {
     return all;
   }
 
-  void save() { checkpointer_.save(run_, recorder_, frames_, stages_, seconds()); }
+  void save() { checkpointer_.save(run_, recorder_, frames_, stages_, schedule_, seconds()); }
 
   [[nodiscard]] bool wanted_to_stop() const {
     return (request_.interrupt != nullptr && *request_.interrupt != 0) ||

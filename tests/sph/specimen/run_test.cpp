@@ -127,12 +127,34 @@ TEST(Run, ResumesBitForBit) {
   }
 }
 
+/// A run that has come to its end goes on to a later one as if it had been meant so, rows and frames at the distances
+/// of its first end; without a checkpoint there is nothing to go on from.
+TEST(Run, GoesOnToALaterEnd) {
+  const auto scene = [](const std::string& time, const std::string& rows) {
+    return small_beam({"stop.time=" + time, "output.history_rows=" + rows, "output.frames=0"});
+  };
+  const fs::path whole = fpz::test::fresh_path("to_the_end"), parts = fpz::test::fresh_path("to_a_later_end");
+  (void)run(scene("1.6e-3", "160"), whole);
+  RunRequest request;
+  request.folder = parts;
+  request.keep_checkpoint = true;
+  (void)run_scene(scene("0.8e-3", "80"), request);
+  EXPECT_TRUE(fs::exists(parts / "summary.json"));
+  request.resume = true;
+  request.keep_checkpoint = false;
+  const RunResult r = run_scene(scene("1.6e-3", "80"), request);
+  EXPECT_EQ(r.ending, Ending::finished);
+  EXPECT_EQ(fpz::test::text_of(parts / "history.csv"), fpz::test::text_of(whole / "history.csv"));
+  EXPECT_FALSE(fs::exists(parts / "checkpoint.bin"));
+  EXPECT_THROW((void)run_scene(scene("1.6e-3", "80"), request), fpz::io::InputError);
+}
+
 TEST(Run, ResumeRefusesWhatDoesNotBelong) {
   const Scene scene = small_beam({"stop.time=6e-4"});
   const fs::path folder = fpz::test::fresh_path("refuse");
   EXPECT_THROW((void)run(scene, folder, 0, true), fpz::io::InputError);  // nothing there
   (void)run(scene, folder, 50);
-  EXPECT_THROW((void)run(small_beam({"stop.time=7e-4"}), folder, 50, true), fpz::io::InputError);
+  EXPECT_THROW((void)run(small_beam({"stop.time=6e-4", "method.courant=0.4"}), folder, 50, true), fpz::io::InputError);
   EXPECT_THROW((void)run(scene, folder, 50), fpz::io::OutputError);  // files in the way
   std::string bytes = fpz::test::text_of(folder / "checkpoint.bin");
   bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);

@@ -25,8 +25,9 @@ struct RunRequest {
   std::filesystem::path folder;
   bool force = false;
   bool resume = false;
-  int threads = 0;           ///< 0: as the scene says
-  long long most_steps = 0;  ///< stop after so many steps of this process, with a checkpoint; 0: no limit
+  bool keep_checkpoint = false;  ///< also when the run has finished: it can go on to a later end
+  int threads = 0;               ///< 0: as the scene says
+  long long most_steps = 0;      ///< stop after so many steps of this process, with a checkpoint; 0: no limit
   const volatile std::sig_atomic_t* interrupt = nullptr;  ///< not 0: stop with a checkpoint
   std::function<void(const Progress&)> progress;
   std::function<void(const std::vector<std::string>&)> warn;  ///< told before the first step what is doubtful
