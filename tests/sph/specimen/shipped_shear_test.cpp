@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <string>
+#include <vector>
 
 #include "fpz/specimen/run.hpp"
 #include "support/temporary_folder.hpp"
@@ -10,6 +12,8 @@
 namespace {
 
 using fpz::degree;
+using fpz::Parameters;
+namespace sph = fpz::sph;
 using namespace fpz::specimen;
 
 RunResult run(const char* name, Overrides set, const std::string& folder) {
@@ -108,6 +112,136 @@ TEST(ShippedShear, AFlatJointLeavesTheMachineAlone) {
   const std::size_t sliding = first_row(h, "deflection", 3e-5);
   EXPECT_NEAR(mean(h, "normal", sliding), n0, 2e-3 * n0);
   EXPECT_NEAR(mean(h, "load", sliding), right, 2e-3 * right);
+}
+
+/// A closed flaw in uniaxial compression: half length a (m), angle to the load, friction of its faces.
+struct Flaw {
+  double a = 0.02, to_load_deg = 45.0, friction_deg = 20.0;
+  [[nodiscard]] double normal() const { return std::pow(std::sin(to_load_deg * degree), 2); }  ///< over the pressure
+  [[nodiscard]] double along() const { return 1.0 - normal(); }
+  [[nodiscard]] double friction() const { return std::tan(friction_deg * degree) * normal(); }
+  /// Shear that the faces do not bear, over the pressure; K_II = driving sqrt(pi a).
+  [[nodiscard]] double driving() const {
+    return std::sin(to_load_deg * degree) * std::cos(to_load_deg * degree) - friction();
+  }
+};
+
+struct FirstCrack {
+  double angle_deg = 0.0;  ///< from the flaw's continuation, towards the load
+  double pressure = 0.0;   ///< Pa
+};
+
+/// Generalised maximum tangential stress (Smith, Ayatollahi and Pavier 2001): the tangential stress of K_II and of the
+/// even stresses at the distance (K_Ic/sigma_t)^2/(2 pi) from the tip reaches sigma_t.
+FirstCrack first_crack(const Flaw& flaw, double toughness, double strength) {
+  const double r = std::pow(toughness / strength, 2) / (2.0 * std::numbers::pi);
+  FirstCrack c;
+  double most = 0.0;
+  for (double angle = 1.0; angle < 180.0; angle += 0.1) {
+    const double t = angle * degree, sine = std::sin(t), cosine = std::cos(t);
+    const double tangential = 1.5 * flaw.driving() * std::sqrt(flaw.a / (2.0 * r)) * sine * std::cos(0.5 * t) -
+                              flaw.along() * sine * sine - flaw.normal() * cosine * cosine +
+                              2.0 * flaw.friction() * sine * cosine;
+    if (tangential > most) most = tangential, c = {angle, strength / tangential};
+  }
+  return c;
+}
+
+/// What the particles around the tips of a flaw say.
+class Wings {
+ public:
+  Wings(const Notch& flaw, double spacing) : flaw_(flaw), spacing_(spacing) {}
+
+  /// The shorter wing: how far from its tip a particle has lost half of its strength.
+  [[nodiscard]] double length(const std::vector<Spot>& spots) const {
+    double reach[2] = {0.0, 0.0};
+    for (const Spot& s : spots) {
+      if (s.damage > 0.5) reach[end(s)] = std::max(reach[end(s)], (s.at - tip(end(s))).norm());
+    }
+    return std::min(reach[0], reach[1]);
+  }
+  /// Where the particles lie: the angle of their mean place, seen from the tip, degrees.
+  [[nodiscard]] double place_deg(const std::vector<Spot>& spots) const {
+    Point sum = Point::Zero();
+    for (const Spot& s : spots) {
+      const double far = (s.at - tip(end(s))).norm() / spacing_;
+      if (s.damage > 0.3 && far > 1.0 && far < 4.5) sum += s.damage * turned(s.at - tip(end(s)), s);
+    }
+    return -std::atan2(sum.y(), sum.x()) / degree;
+  }
+  /// Mean direction of the crack planes beside the tip, degrees.
+  [[nodiscard]] double planes_deg(const std::vector<Spot>& spots) const {
+    double sum = 0.0, weight = 0.0;
+    for (const Spot& s : spots) {
+      if (s.damage <= 0.3 || (s.at - tip(end(s))).norm() > 2.5 * spacing_) continue;
+      const Point n = turned(s.normal, s);
+      sum += s.damage * std::atan(n.x() / n.y()) / degree;
+      weight += s.damage;
+    }
+    return sum / weight;
+  }
+
+ private:
+  [[nodiscard]] Point tip(int end) const { return end == 0 ? flaw_.mouth : flaw_.tip; }
+  [[nodiscard]] int end(const Spot& s) const { return (s.at - flaw_.tip).norm() < (s.at - flaw_.mouth).norm() ? 1 : 0; }
+  /// In axes along the flaw, outward at the particle's tip, and across it.
+  [[nodiscard]] Point turned(const Point& v, const Spot& s) const {
+    const Point x = (tip(end(s)) - tip(1 - end(s))).normalized();
+    return {x.dot(v), x.x() * v.y() - x.y() * v.x()};
+  }
+  Notch flaw_;
+  double spacing_;
+};
+
+/// The plate of wing_crack.json at 2 mm with another flaw.
+Scene cracked_plate(const Flaw& flaw) {
+  const double t = flaw.to_load_deg * degree, e = 3e-3;
+  const auto point = [](double x, double y) { return "[" + std::to_string(x) + ", " + std::to_string(y) + "]"; };
+  const auto beside = [&](double side) {
+    return R"({"point": )" + point(-side * e * std::cos(t), -side * e * std::sin(t)) + R"(, "radius": 0.0022})";
+  };
+  return read_scene(std::filesystem::path(FPZ_DATA_DIR) / "scenes" / "wing_crack.json",
+                    {"spacing=0.002", "notches[0].mouth=" + point(flaw.a * std::sin(t), -flaw.a * std::cos(t)),
+                     "notches[0].angle_deg=" + std::to_string(flaw.to_load_deg),
+                     "notches[0].friction_angle_deg=" + std::to_string(flaw.friction_deg),
+                     R"(gauges.slip={"displacement_of": )" + beside(1.0) + R"(, "relative_to": )" + beside(-1.0) +
+                         R"(, "direction": )" + point(-std::sin(t), std::cos(t)) + "}"});
+}
+
+/// A sliding flaw slips in its middle by 4 driving a/E', and its wings begin as the stresses around its tips say.
+TEST(ShippedShear, WingCracksBeginAtTheTipsOfASlidingFlaw) {
+  for (const Flaw& flaw : {Flaw{0.02, 45.0, 20.0}, Flaw{0.02, 30.0, 20.0}, Flaw{0.02, 55.0, 10.0}}) {
+    const Scene scene = cracked_plate(flaw);
+    const Specimen specimen = make_specimen(scene);
+    sph::Simulation<2> run(specimen.setup);
+    const Parameters& p = specimen.setup.parameters;
+    const double plane_modulus = p.young_modulus / (1.0 - p.poisson_ratio * p.poisson_ratio), area = 0.12 * 0.05;
+    const FirstCrack right =
+        first_crack(flaw, std::sqrt(plane_modulus * p.tensile_strength * p.delta0), p.tensile_strength);
+    const Wings wings(scene.body.notches[0], scene.spacing);
+    double load = 0.0, slip = 0.0, slip_over_right = 0.0, length = 0.0;
+    bool begun = false;
+    for (int step = 1; length < 8e-3 && run.time() < 4e-3; ++step) {
+      ASSERT_TRUE(run.step().ok());
+      load += specimen.gauges.at("load").value(run, scene.thickness) / 50.0;
+      slip += specimen.gauges.at("slip").value(run, scene.thickness) / 50.0;
+      if (step % 50 != 0) continue;
+      const std::vector<Spot> now = spots(run, specimen);
+      length = wings.length(now);
+      if (run.cracked() == 0) slip_over_right = slip / (4.0 * flaw.driving() * load / area * flaw.a / plane_modulus);
+      if (!begun && length > 4e-3) {
+        begun = true;
+        EXPECT_NEAR(load / area, right.pressure, 0.1 * right.pressure) << flaw.to_load_deg;
+        EXPECT_NEAR(wings.planes_deg(now), right.angle_deg, 5.0) << flaw.to_load_deg;
+      }
+      if (length > 8e-3) {
+        EXPECT_NEAR(wings.place_deg(now), right.angle_deg, 10.0) << flaw.to_load_deg;
+      }
+      load = slip = 0.0;
+    }
+    EXPECT_NEAR(slip_over_right, 1.0, 0.05) << flaw.to_load_deg;
+    EXPECT_GT(length, 8e-3) << flaw.to_load_deg;
+  }
 }
 
 }  // namespace
