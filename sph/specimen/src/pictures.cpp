@@ -63,9 +63,10 @@ Picture energies(const io::Table& t, const std::string& title) {
   return with_legend("energies", p, 7);
 }
 
-/// Row at which the load is a given part of its peak: before the peak, or (negative) after it.
+/// Row at which the load is a given part of its peak: before the peak, or (negative) after it; 0: the last one.
 std::size_t row_at(const io::Table& t, double part) {
   const auto& load = t.at("load");
+  if (part == 0.0) return load.size() - 1;
   const auto peak = static_cast<std::size_t>(std::max_element(load.begin(), load.end()) - load.begin());
   if (part == 1.0) return peak;
   if (part > 0.0) {

@@ -54,12 +54,16 @@ constexpr const char* beam = "beam_3pb.json";
 constexpr const char* plate = "uniaxial_compression.json";
 constexpr Answer refused = Answer::refused, warned = Answer::warned;
 
-/// Warnings about the shipped scenes themselves: only what the calibrated materials of the paper deserve.
+/// Warnings about the shipped scenes themselves: only what the calibrated materials of the paper deserve, and that
+/// steel is no rock.
 TEST(Checks, ShippedScenesGiveNoFalseAlarm) {
   for (const fs::directory_entry& entry : fs::directory_iterator(scenes)) {
     const std::string file = entry.path().filename().string();
-    const std::string text = said(scenes / file, {"name=x", "material.shear_stiffness=1e14"});
-    EXPECT_EQ(text, "") << file;
+    std::istringstream text(said(scenes / file, {"name=x", "material.shear_stiffness=1e15"}));
+    for (std::string line; std::getline(text, line);) {
+      const bool steel = file == "kalthoff.json" && line.find("value for rock and concrete") != std::string::npos;
+      EXPECT_TRUE(steel) << file << ": " << line;
+    }
   }
 }
 

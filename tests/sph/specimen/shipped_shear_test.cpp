@@ -212,7 +212,8 @@ Scene cracked_plate(const Flaw& flaw) {
 TEST(ShippedShear, WingCracksBeginAtTheTipsOfASlidingFlaw) {
   for (const Flaw& flaw : {Flaw{0.02, 45.0, 20.0}, Flaw{0.02, 30.0, 20.0}, Flaw{0.02, 55.0, 10.0}}) {
     const Scene scene = cracked_plate(flaw);
-    const Specimen specimen = make_specimen(scene);
+    Specimen specimen = make_specimen(scene);
+    specimen.setup.options.threads = 1;
     sph::Simulation<2> run(specimen.setup);
     const Parameters& p = specimen.setup.parameters;
     const double plane_modulus = p.young_modulus / (1.0 - p.poisson_ratio * p.poisson_ratio), area = 0.12 * 0.05;
@@ -241,6 +242,157 @@ TEST(ShippedShear, WingCracksBeginAtTheTipsOfASlidingFlaw) {
     }
     EXPECT_NEAR(slip_over_right, 1.0, 0.05) << flaw.to_load_deg;
     EXPECT_GT(length, 8e-3) << flaw.to_load_deg;
+  }
+}
+
+/// Farthest particle above a notch that has lost half of its strength, from the tip of the notch.
+Point crack_tip(const std::vector<Spot>& spots, const Notch& notch) {
+  Point tip = Point::Zero();
+  for (const Spot& s : spots) {
+    const Point to = s.at - notch.tip;
+    if (s.damage > 0.5 && to.y() > -5e-3 && to.norm() > tip.norm()) tip = to;
+  }
+  return tip;
+}
+
+/// A blow on the plate between two notches: the force of the plane wave first; then a crack in the direction that
+/// experiments have, slower than Rayleigh's wave.
+TEST(ShippedShear, KalthoffsPlateCracksAtSeventyDegrees) {
+  const Scene scene = read_scene(std::filesystem::path(FPZ_DATA_DIR) / "scenes" / "kalthoff.json", {"spacing=0.001"});
+  Specimen specimen = make_specimen(scene);
+  specimen.setup.options.threads = 1;
+  sph::Simulation<2> run(specimen.setup);
+  const Parameters& p = specimen.setup.parameters;
+  const double shear = p.young_modulus / (2.0 * (1.0 + p.poisson_ratio));
+  const double squeezed = 2.0 * shear * (1.0 - p.poisson_ratio) / (1.0 - 2.0 * p.poisson_ratio);
+  const double rayleigh = (0.862 + 1.14 * p.poisson_ratio) / (1.0 + p.poisson_ratio) * std::sqrt(shear / p.density);
+  double force = 0.0, fastest = 0.0;
+  int steps = 0;
+  std::vector<double> length;  // every 10 us
+  Point tip = Point::Zero();
+  while (tip.norm() < 0.05 && run.time() < 85e-6) {
+    ASSERT_TRUE(run.step().ok());
+    if (run.time() > 2e-6 && run.time() < 3e-6) {
+      force += specimen.gauges.at("load").value(run, scene.thickness);
+      ++steps;
+    }
+    if (run.time() < 1e-5 * static_cast<double>(length.size() + 1)) continue;
+    tip = crack_tip(spots(run, specimen), scene.body.notches[0]);
+    length.push_back(tip.norm());
+  }
+  // Even strain between two fronts: impedance times velocity.
+  const double wave = std::sqrt(squeezed * p.density) * 13.0 * 0.048 * scene.thickness;
+  EXPECT_NEAR(force / steps, wave, 0.04 * wave);
+  EXPECT_GT(tip.norm(), 0.05);
+  const double angle = std::atan2(tip.y(), tip.x()) / degree;
+  EXPECT_GT(angle, 65.0);
+  EXPECT_LT(angle, 72.0);
+  for (std::size_t k = 1; k < length.size(); ++k) fastest = std::max(fastest, (length[k] - length[k - 1]) / 1e-5);
+  EXPECT_LT(fastest, rayleigh);
+  EXPECT_GT(fastest, 0.4 * rayleigh);
+  EXPECT_LT(length[0], 1e-3);
+}
+
+/// Steepness of the longest axis of a cloud of particles, degrees from the horizontal, 0 to 90.
+double steepness_deg(const std::vector<Point>& cloud) {
+  Point middle = Point::Zero();
+  for (const Point& q : cloud) middle += q / static_cast<double>(cloud.size());
+  double xx = 0.0, yy = 0.0, xy = 0.0;
+  for (const Point& q : cloud) {
+    const Point d = q - middle;
+    xx += d.x() * d.x(), yy += d.y() * d.y(), xy += d.x() * d.y();
+  }
+  return std::abs(0.5 * std::atan2(2.0 * xy, xx - yy)) / degree;
+}
+
+/// Bands of shear in a plate under compression are between Roscoe's direction, 45 + dilation/2, and Coulomb's, 45 +
+/// friction/2 (Arthur et al. 1977, Geotechnique 27, 53-74), on a lattice and among particles without directions.
+TEST(ShippedShear, ShearBandsAreBetweenRoscoeAndCoulomb) {
+  for (const char* arrangement : {"lattice", "scattered"}) {
+    const Scene scene = read_scene(std::filesystem::path(FPZ_DATA_DIR) / "scenes" / "uniaxial_compression.json",
+                                   {"spacing=0.002", std::string("arrangement.type=") + arrangement});
+    Specimen specimen = make_specimen(scene);
+    specimen.setup.options.threads = 1;
+    sph::Simulation<2> run(specimen.setup);
+    double load = 0.0, peak = 0.0;
+    for (int step = 1; load >= 0.97 * peak && run.time() < 8e-3; ++step) {
+      ASSERT_TRUE(run.step().ok());
+      if (step % 50 != 0) continue;
+      load = specimen.gauges.at("load").value(run, scene.thickness);
+      peak = std::max(peak, load);
+    }
+    std::vector<Point> cracked;
+    for (const Spot& s : spots(run, specimen)) {
+      if (s.damage > 0.7) cracked.push_back(s.at);
+    }
+    // Two bands, each other's image in the middle of the plate.
+    double product = 0.0;
+    for (const Point& q : cracked) product += q.x() * q.y();
+    std::vector<Point> upper, lower;
+    for (const Point& q : cracked) (q.y() > (product > 0.0 ? q.x() : -q.x()) ? upper : lower).push_back(q);
+    for (const std::vector<Point>& band : {upper, lower}) {
+      ASSERT_GT(band.size(), 10u) << arrangement;
+      const double angle = steepness_deg(band);
+      EXPECT_GT(angle, 45.0 + 0.5 * scene.parameters.dilation_angle_deg - 2.0) << arrangement;
+      EXPECT_LT(angle, 45.0 + 0.5 * scene.parameters.friction_angle_deg) << arrangement;
+    }
+  }
+}
+
+/// Compliance that a closed cut without friction adds to a disc, m/N: K_II of Atkinson, Smelser and Sanchez (1982, Int.
+/// J. Fracture 18, 279-291; their coefficients S fitted by parabolas) in the energy that the cut releases.
+double compliance_of_sliding_cut(double half_length, double radius, double thickness, double modulus,
+                                 double angle_deg) {
+  const double c = std::pow(std::cos(angle_deg * degree), 2);
+  double sum = 0.0;
+  constexpr int parts = 100;
+  for (int k = 0; k < parts; ++k) {
+    const double x = (k + 0.5) / parts * half_length / radius, x2 = x * x;
+    const double s1 = 1.0 + 0.986 * x2 + 0.118 * x2 * x2, s2 = 0.5 + 0.248 * x2, s3 = 0.375 + 0.1236 * x2;
+    const double factor = 2.0 * std::sin(2.0 * angle_deg * degree) *
+                          (s1 + s2 * x2 * (8.0 * c - 5.0) + s3 * x2 * x2 * (3.0 - 16.0 * c + 16.0 * c * c));
+    // Two tips; K_II = P/(pi R t) sqrt(pi a) factor, and half of P^2 dC is t times the integral of K^2/E' over both.
+    const double k2 = x * radius * std::numbers::pi * std::pow(factor / (std::numbers::pi * radius * thickness), 2);
+    sum += 4.0 * thickness * k2 / modulus * half_length / parts;
+  }
+  return sum;
+}
+
+/// The disc as it is shipped is as stiff as one without the cut, and breaks no earlier; without friction the cut slides
+/// and makes it softer as its K_II says.
+TEST(ShippedShear, ACutDiscIsAsStiffAsItsFrictionLetsIt) {
+  const auto stiffness = [](double angle_deg, const std::string& cut) {
+    Scene scene =
+        read_scene(std::filesystem::path(FPZ_DATA_DIR) / "scenes" / "cracked_disc_closed.json",
+                   {"arrangement={\"type\": \"lattice\", \"angle_deg\": " + std::to_string(angle_deg) + "}", cut});
+    scene.parameters.tensile_strength = 1e9, scene.parameters.cohesion = 1e10;
+    Specimen specimen = make_specimen(scene);
+    specimen.setup.options.threads = 1;
+    sph::Simulation<2> run(specimen.setup);
+    double load = 0.0, deflection = 0.0;
+    while (run.time() < 1.2e-3) {
+      if (!run.step().ok()) return 0.0;
+      if (run.time() < 1e-3) continue;
+      load += specimen.gauges.at("load").value(run, scene.thickness);
+      deflection += specimen.gauges.at("deflection").value(run, scene.thickness);
+    }
+    EXPECT_FALSE(run.overlap() > 0.01 * scene.spacing);
+    return load / deflection;
+  };
+  const auto cut = [](double angle_deg, double friction_deg) {
+    const double t = angle_deg * degree;
+    return "notches=[{\"mouth\": [" + std::to_string(0.01 * std::sin(t)) + ", " + std::to_string(-0.01 * std::cos(t)) +
+           "], \"length\": 0.02, \"angle_deg\": " + std::to_string(angle_deg) +
+           ", \"friction_angle_deg\": " + std::to_string(friction_deg) + "}]";
+  };
+  for (const double angle : {75.0, 45.0}) {
+    const double whole = stiffness(angle, "notches=[]");
+    if (angle == 75.0) {
+      EXPECT_NEAR(stiffness(angle, cut(angle, 35.0)), whole, 0.01 * whole);
+    }
+    const double more = compliance_of_sliding_cut(0.01, 0.025, 0.025, 20e9 / 0.96, angle);
+    const double right = 1.0 / (1.0 / whole + more), slid = stiffness(angle, cut(angle, 0.0));
+    EXPECT_NEAR(slid, right, 0.015 * right) << angle;
   }
 }
 
