@@ -107,8 +107,10 @@ int check(const Arguments& a) {
   io::print_warnings(scene.warnings);
   const Specimen specimen = make_specimen(scene);
   io::print_warnings(specimen.warnings);
-  std::cout << scene.name << ": the scene is valid\n"
-            << estimate_text(scene, specimen, estimate(scene, specimen, a.threads));
+  const Estimate e = estimate(scene, specimen, a.threads);
+  const std::string slow = warning_of_time_step(specimen.setup, e.schedule.time_step);
+  if (!slow.empty()) io::print_warnings({slow});
+  std::cout << scene.name << ": the scene is valid\n" << estimate_text(scene, specimen, e);
   if (!a.pictures) return 0;
   const fs::path folder = a.out.empty() ? fs::path("fpz-check-" + scene.name) : fs::path(a.out);
   io::make_writable_folder(folder);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <sstream>
 #include <system_error>
 
 #include "checkpointer.hpp"
@@ -50,7 +51,10 @@ class Runner {
         recorder_(scene, specimen_),
         frames_(scene, specimen_, files_, schedule_.frame_every),
         stages_(scene, specimen_, run_.time_step()),
-        checkpointer_(scene, files_) {}
+        checkpointer_(scene, files_) {
+    const std::string slow = warning_of_time_step(specimen_.setup, run_.time_step());
+    if (!slow.empty()) specimen_.warnings.push_back(slow);
+  }
 
   RunResult go() {
     if (request_.warn) request_.warn(specimen_.warnings);
@@ -238,6 +242,21 @@ Schedule schedule_of(const Scene& scene, double time_step) {
     s.frame_every = s.row_every * std::max(1LL, s.steps / s.row_every / scene.output.frames);
   }
   return s;
+}
+
+std::string warning_of_time_step(const sph::RunSetup<2>& setup, double time_step) {
+  constexpr double far_below = 4.0;
+  sph::RunSetup<2> plain = setup;
+  plain.options.courant = std::min(plain.options.courant, 1.0);
+  const double ratio = sph::courant_step(plain) / time_step;
+  if (ratio < far_below) return {};
+  std::ostringstream s;
+  s.precision(2);
+  s << "the time step is " << ratio
+    << " times shorter than \"courant\" asks for, and the run as much longer: something vibrates far faster than the "
+       "body. Gradients of few bonds do (\"smoothing_ratio\" below 1.1), particles that almost touch, a "
+       "\"machine_stiffness\" far above the body's";
+  return s.str();
 }
 
 long long steps_within(double time, double time_step) {

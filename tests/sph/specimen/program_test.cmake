@@ -35,6 +35,10 @@ if(NOT first STREQUAL second)
   message(SEND_ERROR "scene.json in the output folder gives another history")
 endif()
 
+# A time step that something makes far too short is warned about.
+expect(0 "times shorter than \"courant\" asks for" check "${beam}" --set spacing=0.004 --set method.smoothing_ratio=0.9
+       --set notches[0].width=0 -o "${WORK}/slow" --no-pictures)
+
 # Interrupted by steps and resumed: the same history.
 expect(3 "--resume" "${beam}" -o "${WORK}/parts" ${quick} --no-pictures --steps 100)
 expect(0 "" "${beam}" -o "${WORK}/parts" ${quick} --no-pictures --resume --threads 2)

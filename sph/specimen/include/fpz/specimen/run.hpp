@@ -77,6 +77,8 @@ struct Schedule {
   long long steps = 0, row_every = 1, frame_every = 0;  ///< frame_every 0: none
 };
 [[nodiscard]] Schedule schedule_of(const Scene& scene, double time_step);
+/// What a time step (s) far below that of eq 32 means; empty when it is not.
+[[nodiscard]] std::string warning_of_time_step(const sph::RunSetup<2>& setup, double time_step);
 /// Steps after which a time (s) is over.
 [[nodiscard]] long long steps_within(double time, double time_step);
 
