@@ -78,6 +78,8 @@ class Body {
   /// Library update of the flagged particles of [first, last) blocks. Returns the first failure.
   [[nodiscard]] Outcome update_flagged(Index first, Index last);
   [[nodiscard]] Outcome update_particle(std::size_t i);
+  /// H of a particle that has just cracked on a plane with this normal: by the band rule, where that is asked for.
+  void set_band_length(std::size_t i, const Vec<double, Dim>& normal);
   /// H of a particle whose crack has the given unit normal, m: band_width() of its neighbours, those that it still has.
   [[nodiscard]] double band_length(std::size_t i, const Vec<double, Dim>& normal) const;
 };

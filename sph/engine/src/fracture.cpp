@@ -5,6 +5,7 @@
 #include "fpz/energy.hpp"
 #include "fpz/sph/band.hpp"
 #include "fpz/update.hpp"
+#include "weak_plane.hpp"
 
 namespace fpz::sph::detail {
 
@@ -21,6 +22,11 @@ double Body<Dim>::band_length(std::size_t i, const Vec<double, Dim>& normal) con
   }
   const double size = Dim == 2 ? std::sqrt(p.volume[i]) : std::cbrt(p.volume[i]);
   return band_width<Dim>(size, normal, offsets);
+}
+
+template <int Dim>
+void Body<Dim>::set_band_length(std::size_t i, const Vec<double, Dim>& normal) {
+  if (run_.setup.options.rve_length.rule == RveLength::Rule::band) run_.particles.length[i] = band_length(i, normal);
 }
 
 template <int Dim>
@@ -47,12 +53,20 @@ Outcome Body<Dim>::update_particle(std::size_t i) {
   }
   const State<double, Dim> begin = point;
   const Tensor<double, Dim> increment = strain_increment(i, begin);
-  Report report = update<Dim>(m, run_.update_options, begin, increment, point);
-  if (report.ok() && report.onset && run_.setup.options.rve_length.rule == RveLength::Rule::band) {
-    // The plane is known now and does not depend on H: once more with the H that belongs to it.
-    p.length[i] = band_length(i, point.frame.row(0).transpose());
-    set_rve_length(m, p.length[i]);
+  Report report;
+  if (const auto opened = opened_weak_plane<Dim>(run_.materials, i, begin, increment)) {
+    run_.materials.crack_on_weak_plane(i);
+    set_band_length(i, opened->state.frame.row(0).transpose());
+    m = run_.materials.material(i, p.length[i]);
+    report = update<Dim>(m, run_.update_options, opened->state, opened->rest, point);
+  } else {
     report = update<Dim>(m, run_.update_options, begin, increment, point);
+    if (report.ok() && report.onset && run_.setup.options.rve_length.rule == RveLength::Rule::band) {
+      // The plane is known now and does not depend on H: once more with the H that belongs to it.
+      set_band_length(i, point.frame.row(0).transpose());
+      set_rve_length(m, p.length[i]);
+      report = update<Dim>(m, run_.update_options, begin, increment, point);
+    }
   }
   if (report.status == Status::snap_back && shorten_band(i)) return update_particle(i);
   if (!report.ok()) return {Failure::constitutive, report.status, p.id[i], run_.now(), 0.0};
@@ -72,6 +86,7 @@ Outcome Body<Dim>::update_particle(std::size_t i) {
 }
 
 template double Body<2>::band_length(std::size_t, const Vec<double, 2>&) const;
+template void Body<2>::set_band_length(std::size_t, const Vec<double, 2>&);
 template Outcome Body<2>::update_flagged(Index, Index);
 template Outcome Body<2>::update_particle(std::size_t);
 

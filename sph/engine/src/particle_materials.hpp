@@ -1,10 +1,13 @@
 // The materials of a run by particle: constants for the library, and numbers for the loops where they differ.
 #pragma once
 
+#include <limits>
+#include <map>
 #include <vector>
 
 #include "fields.hpp"
 #include "fpz/material.hpp"
+#include "fpz/sph/archive.hpp"
 #include "fpz/sph/simulation.hpp"
 
 namespace fpz::sph::detail {
@@ -34,6 +37,20 @@ class ParticleMaterials {
     set_rve_length(m, rve_length);
     return m;
   }
+  /// Whether particle i has a weak plane on which it has not cracked.
+  [[nodiscard]] bool has_weak_plane(std::size_t i) const {
+    return !weak_.empty() && weak_[i].entry != no_entry && !weak_[i].cracked;
+  }
+  [[nodiscard]] const Vec<double, Dim>& weak_normal(std::size_t i) const { return weak_[i].normal; }
+  /// Constants of its zone there.
+  [[nodiscard]] const Material<double>& weak_material(std::size_t i) const { return list_[weak_[i].entry].constants; }
+  /// Particle i cracks on its weak plane: from now on its parameters are those of the plane.
+  void crack_on_weak_plane(std::size_t i) { weak_[i].cracked = true; }
+  [[nodiscard]] bool cracked_on_weak_plane(std::size_t i) const { return !weak_.empty() && weak_[i].cracked; }
+
+  void save(Writer& archive) const;
+  void load(Reader& archive);
+
   /// Longest H for a crack without snap-back in mode I, m.
   [[nodiscard]] double longest_stable(std::size_t i) const { return list_[index(i)].longest_stable; }
 
@@ -46,7 +63,18 @@ class ParticleMaterials {
     Material<double> constants;
     double longest_stable = 0.0;
   };
-  [[nodiscard]] std::size_t index(std::size_t i) const { return differ_ ? static_cast<std::size_t>(of_slot_[i]) : 0; }
+  static constexpr std::size_t no_entry = std::numeric_limits<std::size_t>::max();
+  struct WeakPlane {
+    std::size_t entry = no_entry;  ///< of the list
+    Vec<double, Dim> normal = Vec<double, Dim>::Zero();
+    bool cracked = false;
+  };
+  void add(const Parameters& p, Setting setting);
+  void add_weak_planes(const RunSetup<Dim>& setup, const std::vector<std::size_t>& id);
+  [[nodiscard]] std::size_t index(std::size_t i) const {
+    if (cracked_on_weak_plane(i)) return weak_[i].entry;
+    return differ_ ? of_slot_[i] : 0;
+  }
 
   template <class Visit>
   void fields(Visit&& visit) {
@@ -61,7 +89,8 @@ class ParticleMaterials {
 
   bool differ_ = false;
   std::vector<Entry> list_;
-  std::vector<int> of_slot_;
+  std::vector<std::size_t> of_slot_;
+  std::vector<WeakPlane> weak_;
   Field lambda_, mu_, sin_phi_, strength_, apex_;
 };
 

@@ -76,15 +76,40 @@ void check_arrangement(const RunSetup<Dim>& s, Messages& m) {
   }
 }
 
+void check_parameters(Parameters p, Setting setting, const std::string& who, Messages& m) {
+  p.rve_length = 1e-6;  // the particles carry their own
+  for (const Violation& e : validate(p, setting).errors) {
+    m.require(false, who + entry(e.field, e.value, e.constraint));
+  }
+}
+
+template <int Dim>
+void check_weak_planes(const RunSetup<Dim>& s, Messages& m) {
+  const WeakPlanes<Dim>& planes = s.weak_planes;
+  for (std::size_t k = 0; k < planes.parameters.size(); ++k) {
+    check_parameters(planes.parameters[k], s.setting, "weak plane " + std::to_string(k) + ": ", m);
+  }
+  if (planes.of_particle.empty()) return;
+  const std::size_t count = s.arrangement.size();
+  m.require(s.options.configuration == Configuration::reference, "weak planes: need the configuration reference");
+  m.require(planes.of_particle.size() == count && planes.normal.size() == count,
+            "weak planes: must have one entry per particle");
+  if (planes.of_particle.size() != count || planes.normal.size() != count) return;
+  const auto kinds = static_cast<int>(planes.parameters.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    const int kind = planes.of_particle[i];
+    const std::string who = "weak plane of particle " + std::to_string(i) + ": ";
+    if (kind < WeakPlanes<Dim>::none || kind >= kinds) m.require(false, who + "is of a kind that is not there");
+    if (kind >= 0 && !(is_finite(planes.normal[i]) && planes.normal[i].norm() > 0.0)) {
+      m.require(false, who + "its normal is no direction");
+    }
+  }
+}
+
 template <int Dim>
 void check_materials(const RunSetup<Dim>& s, Messages& m) {
   for (std::size_t k = 0; k < s.materials.count(); ++k) {
-    Parameters p = parameters_of(s, k);
-    p.rve_length = 1e-6;  // the particles carry their own
-    const std::string who = k == 0 ? "" : "material " + std::to_string(k) + ": ";
-    for (const Violation& e : validate(p, s.setting).errors) {
-      m.require(false, who + entry(e.field, e.value, e.constraint));
-    }
+    check_parameters(parameters_of(s, k), s.setting, k == 0 ? "" : "material " + std::to_string(k) + ": ", m);
   }
   const std::vector<int>& of_particle = s.materials.of_particle;
   if (of_particle.empty())
@@ -164,6 +189,7 @@ std::vector<std::string> problems(const RunSetup<Dim>& s) {
   for (const Load<Dim>& load : s.loads) check_load(load, s.arrangement, m);
   m.require(is_finite(s.initial_stress), "initial_stress: must be finite");
   check_materials(s, m);
+  check_weak_planes(s, m);
   return m.take();
 }
 

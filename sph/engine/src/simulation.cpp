@@ -159,6 +159,11 @@ std::size_t Simulation<Dim>::cracked() const {
 }
 
 template <int Dim>
+bool Simulation<Dim>::cracked_on_weak_plane(std::size_t slot) const {
+  return engine_->run.materials.cracked_on_weak_plane(slot);
+}
+
+template <int Dim>
 std::size_t Simulation<Dim>::failing_out_of_plane() const {
   const detail::RunData<Dim>& run = engine_->run;
   std::size_t n = 0;

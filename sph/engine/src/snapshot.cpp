@@ -36,14 +36,17 @@ std::uint64_t fingerprint(const RunSetup<Dim>& s) {
   w(Dim);
   w(s.setting);
   for_each_option(s.options, OptionPrint{w});
-  for (std::size_t k = 0; k < s.materials.count(); ++k) {
-    const Parameters& material = parameters_of(s, k);
+  const auto print = [&w](const Parameters& material) {
     for (const auto& p : parameter_table<double>) {
       if (p.of_material) w(material.*p.member);
     }
     visit_choices(material.choices, [&w](const char*, auto choice) { w(choice); });
-  }
+  };
+  for (std::size_t k = 0; k < s.materials.count(); ++k) print(parameters_of(s, k));
   w(s.materials.of_particle);
+  for (const Parameters& plane : s.weak_planes.parameters) print(plane);
+  w(s.weak_planes.of_particle);
+  w(s.weak_planes.normal);
   w(s.arrangement.spacing);
   w(s.arrangement.position);
   w(s.arrangement.volume);
@@ -102,6 +105,7 @@ void transfer_run(A& archive, R& run) {
 template <int Dim>
 void Engine<Dim>::save(Writer& archive) const {
   transfer_run(archive, run);
+  run.materials.save(archive);
   body->save(archive);
   for (const auto& boundary : boundaries) boundary->save(archive);
   if (control) control->save(archive);
@@ -111,6 +115,7 @@ void Engine<Dim>::save(Writer& archive) const {
 template <int Dim>
 void Engine<Dim>::load(Reader& archive) {
   transfer_run(archive, run);
+  run.materials.load(archive);
   RunData<Dim>::fields(run, Spoil{run.particles.count});
   body->load(archive);
   for (const auto& boundary : boundaries) boundary->load(archive);

@@ -22,6 +22,7 @@ void check_sizes(const SceneCheck& c);
 void check_notches(const SceneCheck& c);
 void check_holes(const SceneCheck& c);
 void check_regions(const SceneCheck& c);
+void check_interfaces(const SceneCheck& c);
 /// The spacing against the narrowest part of the body and the process zone.
 void check_rows(const SceneCheck& c);
 void check_boundaries(const SceneCheck& c);

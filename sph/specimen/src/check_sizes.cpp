@@ -111,6 +111,9 @@ void check_rows(const SceneCheck& c) {
     const std::size_t number = c.scene.regions[k].material;
     check_process_zone(c, p, "material", c.scene.further_materials[number - 1].parameters);
   });
+  for_entries(c, "interfaces", [&](const Place& p, std::size_t k) {
+    check_process_zone(c, p, "material", c.scene.interfaces[k].material);
+  });
 }
 
 }  // namespace fpz::specimen::detail

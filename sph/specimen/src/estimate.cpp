@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "fpz/io/input_error.hpp"
+#include "interface_map.hpp"
 #include "material_map.hpp"
 
 namespace fpz::specimen {
@@ -48,11 +49,15 @@ std::string slots_text(const Scene& scene, const Specimen& specimen) {
   return s.str();
 }
 
-/// Materials and how much of the body is of them.
+/// Materials and how much of the body is of them; interfaces.
 std::string materials_text(const Scene& scene, const Specimen& specimen) {
   std::ostringstream s;
   s.precision(4);
-  if (scene.further_materials.empty()) return "";
+  const std::vector<std::size_t> count = detail::interface_particles(scene, specimen.setup);
+  for (std::size_t k = 0; k < count.size(); ++k) {
+    s << "  interface         " << scene.interfaces[k].name << ": " << count[k] << " particles beside it\n";
+  }
+  if (scene.further_materials.empty()) return s.str();
   for (const detail::MaterialShare& share : detail::material_shares(scene, specimen.setup)) {
     s << "  material          " << share.name << ": " << share.particles << " particles, " << 1e6 * share.area
       << " mm^2\n";

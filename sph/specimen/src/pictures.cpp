@@ -8,6 +8,7 @@
 #include "fpz/io/input_error.hpp"
 #include "fpz/io/output.hpp"
 #include "fpz/specimen/run.hpp"
+#include "interface_map.hpp"
 #include "picture_parts.hpp"
 
 namespace fpz::specimen {
@@ -184,6 +185,11 @@ PictureOutcome draw_scene(const Scene& scene, const Specimen& specimen, const fs
                                  : scene.regions.size() + 1 + static_cast<std::size_t>(a.group[i]));
   }
   for (const auto& points : outlines(scene.body)) map.lines.push_back(outline(points, "lines lw 1.5 lc rgb '#202020'"));
+  for (const Interface& f : scene.interfaces) {
+    for (const auto& points : lines_in_body(f, scene.body, 0.5 * scene.spacing)) {
+      map.lines.push_back(outline(points, "lines lw 2 lc rgb '#8E44AD'"));
+    }
+  }
   std::vector<Point> gauges;
   for (const auto& [name, g] : specimen.gauges) {
     for (const auto& ids : g.sites) {

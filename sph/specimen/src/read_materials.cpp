@@ -72,7 +72,8 @@ std::optional<io::MaterialFile> read_material_of_scene(const InputReader& r, Jso
 }
 
 std::vector<std::size_t> add_materials(const InputReader& r, JsonValue& root, std::string_view array,
-                                       const JsonValue* first, bool may_crack, Scene& scene) {
+                                       const JsonValue* first, bool may_crack, Scene& scene,
+                                       std::vector<SceneMaterial>& all) {
   std::vector<std::size_t> numbers;
   JsonValue* list = member(root, array);
   if (list == nullptr || !list->is(JsonValue::Kind::array)) return numbers;
@@ -84,8 +85,8 @@ std::vector<std::size_t> add_materials(const InputReader& r, JsonValue& root, st
     const std::vector<std::string> doubts =
         io::check_material(*material, material->parameters, scene.setting, std::nullopt, r.problems());
     if (may_crack) scene.warnings.insert(scene.warnings.end(), doubts.begin(), doubts.end());
-    scene.further_materials.push_back({material->name, material->parameters});
-    numbers.back() = scene.further_materials.size();
+    all.push_back({material->name, material->parameters});
+    numbers.back() = all.size();
   }
   return numbers;
 }

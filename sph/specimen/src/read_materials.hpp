@@ -12,9 +12,10 @@ namespace fpz::specimen::detail {
 
 /// Reads the materials of the entries of an array of the root: the name of a file, or an object with what differs from
 /// the file that it names, or else from `first`, the material of the scene; without that none is read. In the tree they
-/// become complete. They are appended to those of the scene, with warnings about them where they may crack. Their
-/// numbers (the scene's own is 0) by entry; 0 where an entry has none.
+/// become complete. They are appended to `all`, with warnings about them where they may crack. Their
+/// numbers in `all`, from 1 on, by entry; 0 where an entry has none.
 [[nodiscard]] std::vector<std::size_t> add_materials(const InputReader& r, JsonValue& root, std::string_view array,
-                                                     const JsonValue* first, bool may_crack, Scene& scene);
+                                                     const JsonValue* first, bool may_crack, Scene& scene,
+                                                     std::vector<SceneMaterial>& all);
 
 }  // namespace fpz::specimen::detail

@@ -9,10 +9,10 @@ namespace {
 using namespace detail;
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 21> root_keys = {
-    "name",       "description", "source",  "material",  "setting",     "thickness", "spacing",
-    "shape",      "holes",       "notches", "regions",   "arrangement", "method",    "initial_stress",
-    "boundaries", "loads",       "gauges",  "toughness", "stages",      "stop",      "output"};
+constexpr std::array<std::string_view, 22> root_keys = {
+    "name",  "description", "source",    "material",   "setting",     "thickness", "spacing",        "shape",
+    "holes", "notches",     "regions",   "interfaces", "arrangement", "method",    "initial_stress", "boundaries",
+    "loads", "gauges",      "toughness", "stages",     "stop",        "output"};
 
 /// Kernel gradients keep constant stress in equilibrium where all neighbourhoods are alike: on lattices.
 void judge_operator(Scene& scene) {
@@ -96,14 +96,19 @@ Scene read_tree(JsonValue& root, const std::string& origin, const io::ReadLimits
   }
   const auto material = read_material_of_scene(r, root);
   const JsonValue* first = material ? root.find("material") : nullptr;
-  const std::vector<std::size_t> of_regions = add_materials(r, root, "regions", first, true, scene);
-  const std::vector<std::size_t> of_boundaries = add_materials(r, root, "boundaries", first, false, scene);
+  const std::vector<std::size_t> of_regions =
+      add_materials(r, root, "regions", first, true, scene, scene.further_materials);
+  const std::vector<std::size_t> of_boundaries =
+      add_materials(r, root, "boundaries", first, false, scene, scene.further_materials);
+  const std::vector<std::size_t> of_interfaces =
+      add_materials(r, root, "interfaces", first, true, scene, scene.interface_materials);
   const Place top(root);
   const std::vector<std::string> gauges = gauge_names(root);
   with(top, "method", [&](const Place& p) { read_method(r, p, scene.options); });
   read_body(r, top, scene);
   read_arrangement(r, top, scene);
   with(top, "regions", [&](const Place& p) { read_regions(r, p, of_regions, scene); });
+  with(top, "interfaces", [&](const Place& p) { read_interfaces(r, p, of_interfaces, scene); });
   with(top, "initial_stress", [&](const Place& p) { scene.initial_stress = read_stress(r, p); });
   with_required(r, top, "boundaries", [&](const Place& p) { read_boundaries(r, p, gauges, of_boundaries, scene); });
   with(top, "loads", [&](const Place& p) { read_loads(r, p, scene); });

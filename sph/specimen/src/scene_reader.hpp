@@ -111,7 +111,8 @@ struct ActuationRules {
 bool read_actuations(const InputReader& r, const Place& boundary, const ActuationRules& rules, Actuations& drive,
                      std::array<bool, 2>* stated = nullptr);
 
-/// `materials`: numbers of the materials of the regions, of the boundaries.
+/// `materials`: numbers of the materials of the interfaces, of the regions, of the boundaries.
+void read_interfaces(const InputReader& r, const Place& place, std::span<const std::size_t> materials, Scene& scene);
 void read_regions(const InputReader& r, const Place& place, std::span<const std::size_t> materials, Scene& scene);
 void read_boundaries(const InputReader& r, const Place& place, std::span<const std::string> gauges,
                      std::span<const std::size_t> materials, Scene& scene);

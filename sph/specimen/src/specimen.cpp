@@ -12,6 +12,7 @@
 #include "fpz/specimen/surface_shares.hpp"
 #include "fpz/sph/area_vectors.hpp"
 #include "gauge_kinds.hpp"
+#include "interface_map.hpp"
 #include "material_map.hpp"
 
 namespace fpz::specimen {
@@ -169,6 +170,7 @@ Specimen make_specimen(const Scene& scene) {
   s.setup.parameters = scene.parameters;
   try {
     detail::assign_materials(scene, s.setup);
+    detail::assign_interfaces(scene, s.setup);
   } catch (const std::invalid_argument& e) {
     fail(scene, e.what());
   }
@@ -193,17 +195,19 @@ Specimen make_specimen(const Scene& scene) {
 
 double mean_fracture_energy(const sph::Simulation<2>& run, const Specimen& specimen) {
   const sph::Particles<2>& p = run.particles();
-  const auto energy = [&](std::size_t material) {
-    const Parameters& m = parameters_of(specimen.setup, material);
-    return m.tensile_strength * m.delta0;
+  const auto energy = [](const Parameters& m) { return m.tensile_strength * m.delta0; };
+  const auto parameters = [&](std::size_t i) -> const Parameters& {
+    const sph::RunSetup<2>& s = specimen.setup;
+    if (!run.cracked_on_weak_plane(i)) return parameters_of(s, s.materials.of(p.id[i]));
+    return s.weak_planes.parameters[static_cast<std::size_t>(s.weak_planes.of_particle[p.id[i]])];
   };
   double sum = 0.0, weight = 0.0;
   for (std::size_t i = 0; i < p.count; ++i) {
     if (p.kind[i] != sph::kind::cracked) continue;
     const double opened = p.volume[i] * (1.0 - p.point[i].crack.integrity);
-    sum += opened * energy(specimen.setup.materials.of(p.id[i])), weight += opened;
+    sum += opened * energy(parameters(i)), weight += opened;
   }
-  return weight > 0.0 && specimen.setup.materials.count() > 1 ? sum / weight : energy(0);
+  return weight > 0.0 ? sum / weight : energy(specimen.setup.parameters);
 }
 
 double largest_opening(const sph::Simulation<2>& run) {
@@ -286,6 +290,11 @@ PointCloud frame_of(const sph::Simulation<2>& run, const Specimen& specimen) {
     elastic.push_back(elastic_energy<2>(bulk[specimen.setup.materials.of(id)], components, 1.0));
     dissipated.push_back(cracked ? p.point[i].crack.dissipated : 0.0);
     length.push_back(cracked ? p.length[i] : 0.0);
+  }
+  const std::vector<int>& interfaces = specimen.setup.weak_planes.of_particle;
+  if (!interfaces.empty()) {
+    auto& interface = add("interface", 1);
+    for (const int k : interfaces) interface.push_back(k + 1);
   }
   if (bulk.size() > 1) {
     auto& material = add("material", 1);

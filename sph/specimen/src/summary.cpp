@@ -8,6 +8,7 @@
 
 #include "fpz/io/material_file.hpp"
 #include "fpz/sph/option_table.hpp"
+#include "interface_map.hpp"
 #include "material_map.hpp"
 
 namespace fpz::specimen {
@@ -82,6 +83,24 @@ Json materials_json(const Scene& scene, const sph::RunSetup<2>& setup) {
     Json j = material_json(share.name, *share.parameters);
     j["particles"] = share.particles;
     j["area"] = share.area;
+    list.push_back(std::move(j));
+  }
+  return list;
+}
+
+Json interfaces_json(const SummaryInput& in) {
+  const sph::Particles<2>& p = in.run.particles();
+  const std::vector<std::size_t> count = detail::interface_particles(in.scene, in.specimen.setup);
+  std::vector<std::size_t> cracked(count.size(), 0);
+  for (std::size_t i = 0; i < p.count; ++i) {
+    if (!in.run.cracked_on_weak_plane(i)) continue;
+    ++cracked[static_cast<std::size_t>(in.specimen.setup.weak_planes.of_particle[p.id[i]])];
+  }
+  Json list = Json::array();
+  for (std::size_t k = 0; k < count.size(); ++k) {
+    Json j = material_json(in.scene.interfaces[k].name, in.scene.interfaces[k].material);
+    j["particles"] = count[k];
+    j["cracked"] = cracked[k];
     list.push_back(std::move(j));
   }
   return list;
@@ -308,6 +327,7 @@ std::string summary_text(const SummaryInput& in) {
   j["load_support_imbalance"] = number(f.imbalance);
   j["material"] = material_json(in.scene.material_name, in.scene.parameters);
   if (!in.scene.further_materials.empty()) j["materials"] = materials_json(in.scene, in.specimen.setup);
+  if (!in.scene.interfaces.empty()) j["interfaces"] = interfaces_json(in);
   j["setting"] = to_string(in.scene.setting);
   j["method"] = method_json(in.scene.options);
   j["spacing"] = in.scene.spacing;

@@ -457,6 +457,46 @@ TEST(Checks, Regions) {
   });
 }
 
+TEST(Checks, Interfaces) {
+  const auto interface = [](const std::string& where, const std::string& material = R"({"tensile_strength":1e6})") {
+    return R"(interfaces=[{"name":"j","material":)" + material + "," + where + "}]";
+  };
+  const std::string line = R"("line":[[-0.1,0.05],[0.1,0.05]])";
+  expect_answers({
+      {refused,
+       beam,
+       {interface(R"("line":[[-0.1,0.2],[0.1,0.2]])")},
+       {"interfaces[0].line: from [-0.1, 0.2] to [0.1, 0.2]: it is outside the body"}},
+      {refused,
+       beam,
+       {interface(R"("line":[[-100,40],[100,40]])")},
+       {"interfaces[0].line", "outside the body", "mm was probably meant"}},
+      {refused, beam, {interface(R"("line":[[0,0.05]])")}, {"interfaces[0].line: has fewer than 2 points"}},
+      {refused, beam, {interface(R"("line":[[0,0.05],[0,0.05]])")}, {"repeats the point before it"}},
+      {refused,
+       beam,
+       {interface(line + R"(,"bedding":{"angle_deg":0,"spacing":0.02})")},
+       {"interfaces[0]: needs either \"line\" or \"bedding\""}},
+      {refused,
+       beam,
+       {interface(R"("bedding":{"angle_deg":10,"spacing":20,"origin":[0,1]})")},
+       {"interfaces[0].bedding: no plane 20 m apart goes through the body", "20 mm was probably meant"}},
+      {warned,
+       beam,
+       {interface(R"("bedding":{"angle_deg":0,"spacing":0.01})")},
+       {"interfaces[0].bedding: planes are 0.01 m apart, less than three spacings"}},
+      {warned,
+       beam,
+       {interface(line, R"({"tensile_strength":5e6})")},
+       {"interfaces[0].material: the interface is as strong as the material beside it"}},
+      {refused, beam, {interface(line, R"({"cohesion":1e3})")}, {"interfaces[0].material.cohesion", "must be >"}},
+      {refused,
+       beam,
+       {interface(line), "method.configuration=updated"},
+       {"weak planes: need the configuration reference"}},
+  });
+}
+
 TEST(Checks, ParticlesFromAFile) {
   ParticleFileScene file;
   const Overrides stiff = {"material.shear_stiffness=1e14"};

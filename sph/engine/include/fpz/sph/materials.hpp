@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "fpz/parameters.hpp"
+#include "fpz/types.hpp"
 
 namespace fpz::sph {
 
@@ -16,6 +17,17 @@ struct Materials {
   [[nodiscard]] std::size_t of(std::size_t id) const {
     return of_particle.empty() ? 0 : static_cast<std::size_t>(of_particle[id]);
   }
+};
+
+/// Planes through particles that have a strength of their own: bedding, mortar joints. A particle cracks on its plane
+/// or on the critical one of its material, whichever fails first. In `reference`.
+template <int Dim>
+struct WeakPlanes {
+  std::vector<Parameters> parameters;    ///< of kinds of planes; elasticity and density are those of the particles
+  std::vector<int> of_particle;          ///< kind, in the order of the arrangement; -1: none; empty: nowhere
+  std::vector<Vec<double, Dim>> normal;  ///< unit, likewise
+
+  static constexpr int none = -1;
 };
 
 }  // namespace fpz::sph

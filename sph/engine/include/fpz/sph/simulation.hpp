@@ -31,6 +31,7 @@ struct RunSetup {
   std::vector<Load<Dim>> loads;
   Parameters parameters;  ///< rve_length is ignored: options.rve_length decides
   Materials materials;    ///< others than these parameters, where the body is not of one material
+  WeakPlanes<Dim> weak_planes;
   Setting setting = Setting::plane_strain;
   Options<Dim> options;
   double most_damping = 0.0;  ///< largest part that set_damping() will be given; the time step is stable with it
@@ -107,6 +108,8 @@ class Simulation {
   /// Sums over all particles, in a fixed order.
   [[nodiscard]] Energies energies() const;
   [[nodiscard]] std::size_t cracked() const;
+  /// Whether the particle in a slot has cracked on its weak plane.
+  [[nodiscard]] bool cracked_on_weak_plane(std::size_t slot) const;
   /// Largest relative displacement of uncracked neighbours that gradients do not see, m: rows that alternate. NaN
   /// without zero-energy control.
   [[nodiscard]] double alternation() const;

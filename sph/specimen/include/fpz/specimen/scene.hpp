@@ -49,6 +49,21 @@ struct Region {
   std::vector<Shape> shapes;  ///< together; none: the particle file says which particles are in it
 };
 
+/// Parallel planes.
+struct Bedding {
+  double angle = 0.0;            ///< radian, of their traces, counter-clockwise from +x
+  double spacing = 0.0;          ///< m, from plane to plane
+  Point origin = Point::Zero();  ///< on one of them
+};
+
+/// Planes on which the body cracks at a strength of their own: along a line, or bedding throughout the body.
+struct Interface {
+  std::string name;
+  Parameters material;  ///< elasticity and density have no effect: they are those of what is beside it
+  std::vector<Point> line;
+  std::optional<Bedding> bedding;  ///< in place of a line
+};
+
 /// A gauge beyond a value.
 struct GaugeLimit {
   std::string gauge;
@@ -94,6 +109,8 @@ struct Scene {
   Parameters parameters;                         ///< rve_length is 0: method.rve_length decides
   std::vector<SceneMaterial> further_materials;  ///< of regions, then of boundaries: numbers 1, 2, ...
   std::vector<Region> regions;                   ///< later ones cover earlier ones
+  std::vector<SceneMaterial> interface_materials;
+  std::vector<Interface> interfaces;  ///< later ones go before earlier ones
   Setting setting = Setting::plane_strain;
   double thickness = 0.0;  ///< m
   double spacing = 0.0;    ///< m

@@ -54,7 +54,7 @@ struct Specimen {
 
 /// All particles with their fields for a VTU file, in the order of the arrangement: group, damage, crack_normal, jump,
 /// stress (xx, yy, xy), velocity, displacement, elastic_energy (J/m^3), dissipated_energy (per crack area, J/m^2);
-/// material, where there are several.
+/// material, where there are several; interface (its number from 1 on, 0: none), where there are any.
 [[nodiscard]] PointCloud frame_of(const sph::Simulation<2>& run, const Specimen& specimen);
 
 /// Size of the file of such a frame, about.
