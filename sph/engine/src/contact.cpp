@@ -106,6 +106,37 @@ void Contact<Dim>::refit(const std::vector<ReleasedBond<Dim>>& released, const N
     before.push_back(places_[k]);
     fit_sides_of_bond(run_, lists, point);
   }
+  go_on(changed, before);
+}
+
+template <int Dim>
+void Contact<Dim>::follow_slip() {
+  constexpr double far = 0.5;  // spacings
+  std::vector<ContactPoint<Dim>> left;
+  std::vector<std::size_t> changed;
+  std::vector<Place> before;
+  bool lost = false;
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    ContactPoint<Dim>& point = points_[k];
+    const double slid = places_[k].shift;
+    if (!point.of_crack && std::abs(slid) > far * run_.setup.arrangement.spacing) {
+      auto side = side_opposite(run_, point, slid);
+      lost = lost || !side;
+      if (!side) continue;
+      point.side[1] = std::move(*side);
+      point.at_start -= slid * Vector(-point.normal[1], point.normal[0]);
+      changed.push_back(left.size());
+      before.push_back(places_[k]);
+    }
+    left.push_back(point);
+  }
+  if (changed.empty() && !lost) return;
+  points_ = std::move(left);
+  go_on(changed, before);
+}
+
+template <int Dim>
+void Contact<Dim>::go_on(const std::vector<std::size_t>& changed, const std::vector<Place>& before) {
   find_members();
   for (std::size_t n = 0; n < changed.size(); ++n) {
     ContactPoint<Dim>& point = points_[changed[n]];
@@ -139,6 +170,8 @@ void Contact<Dim>::look(const ContactPoint<Dim>& point, Place& place) const {
 template <int Dim>
 bool Contact<Dim>::prepare() {
   bool touching = false;
+  for (std::size_t k = 0; k < points_.size(); ++k) look(points_[k], places_[k]);
+  follow_slip();
   for (std::size_t k = 0; k < points_.size(); ++k) {
     ContactPoint<Dim>& point = points_[k];
     look(point, places_[k]);

@@ -18,9 +18,9 @@ constexpr double beside = 1.1;      // spacings: no face where no particle is ne
 constexpr double ahead = 0.75;      // or where all lie this far to one side along it
 constexpr double before_tip = 0.9;  // spacings: from there on bonds cross the cut in part (share_of_bond)
 
-/// A place on a face of a cut, the direction along it, and the one into its body.
+/// A place on a face, the direction along it, and the one into its body.
 struct FacePlace {
-  std::size_t cut;
+  std::optional<std::size_t> cut;  ///< that the face belongs to, where it is known
   Vec2 at, along, inward;
 };
 
@@ -28,7 +28,7 @@ struct FacePlace {
 bool is_behind(const std::vector<Cut<2>>& cuts, const FacePlace& face, const Vec2& x) {
   if ((x - face.at).dot(face.inward) <= 0.0) return false;
   for (std::size_t k = 0; k < cuts.size(); ++k) {
-    if (k != face.cut && crosses(cuts[k], face.at, x)) return false;
+    if (face.cut != k && crosses(cuts[k], face.at, x)) return false;
   }
   return true;
 }
@@ -152,6 +152,15 @@ std::optional<ContactPoint<Dim>> point_of_bond(const RunData<Dim>& run, const Ne
 }
 
 template <int Dim>
+std::optional<FaceSide> side_opposite(const RunData<Dim>& run, const ContactPoint<Dim>& point, double slid) {
+  const FaceSide& side = point.side[1];
+  Vec<double, Dim> place = Vec<double, Dim>::Zero();  // the weights are right for linear fields
+  for (std::size_t k = 0; k < side.particle.size(); ++k) place += side.weight[k] * start_of(run, side.particle[k]);
+  const Vec<double, Dim> left(-point.normal[1], point.normal[0]);
+  return side_behind(run, {std::nullopt, place - slid * left, left, point.normal});
+}
+
+template <int Dim>
 std::vector<ContactPoint<Dim>> points_of_cuts(const RunData<Dim>& run) {
   std::vector<ContactPoint<Dim>> points;
   for (std::size_t k = 0; k < run.setup.arrangement.cuts.size(); ++k) add_points(run, k, points);
@@ -161,6 +170,7 @@ std::vector<ContactPoint<Dim>> points_of_cuts(const RunData<Dim>& run) {
 template void fit_sides_of_bond<2>(const RunData<2>&, const NeighbourLists&, ContactPoint<2>&);
 template std::optional<ContactPoint<2>> point_of_bond<2>(const RunData<2>&, const NeighbourLists&,
                                                          const ReleasedBond<2>&);
+template std::optional<FaceSide> side_opposite<2>(const RunData<2>&, const ContactPoint<2>&, double);
 template ContactLaw contact_law<2>(const RunData<2>&, const std::array<FaceSide, 2>&, double, double);
 template std::vector<ContactPoint<2>> points_of_cuts<2>(const RunData<2>&);
 

@@ -262,6 +262,32 @@ TEST(Contact, FacesOfACrackInSnapshots) {
   EXPECT_EQ(one.snapshot(), two.snapshot());
 }
 
+/// A block that is dragged along by six spacings: friction stays, and what it has left bears nothing any more.
+TEST(Contact, FacesThatSlideFarMeetWhatIsOpposite) {
+  const double friction = 0.3, force = 2e4;
+  RunSetup<2> s = cut_block(20, 12, friction);
+  s.options.damping = 0.07;  // which also opposes the motion as a whole, a little
+  Group<2> top{"top", {Motion{4.0, 4e-4}, std::nullopt}, true};
+  top.drive[1] = Drive(Drive::Kind::force, TimeTable::rise(0.0, -force, 2e-4));
+  hold_ends(s, 12.0 * spacing, top);
+  Simulation<2> run(s);
+  const Vector mean = mean_force(run, 1.9e-3, 0.1);
+  EXPECT_NEAR(mean[0], friction * force, 0.01 * friction * force);
+  const Particles<2>& p = run.particles();
+  double slid = 0.0, uncovered = 0.0, covered = 0.0;
+  for (std::size_t i = 0; i < p.count; ++i) {
+    slid = std::max(slid, p.position[0][i] - p.start[0][i]);
+    const double below = 6.0 * spacing - p.start[1][i], x = p.start[0][i];
+    if (below < 0.0 || below > spacing) continue;
+    if (x < 4.0 * spacing) uncovered = std::max(uncovered, std::abs(p.stress[1][i]));
+    if (x > 6.0 * spacing) covered -= p.stress[1][i] * spacing;
+  }
+  EXPECT_GT(slid, 6.0 * spacing);
+  EXPECT_LT(uncovered, 0.05 * force / (14.0 * spacing));
+  EXPECT_NEAR(covered, force, 0.1 * force);  // the row just below the face
+  EXPECT_LT(std::abs(run.energies().error()), 1e-3 * run.energies().external);
+}
+
 RunSetup<2> sliding(int threads) {
   RunSetup<2> s = cut_block(20, 12, 0.5);
   hold_ends(s, 12.0 * spacing, {"top", {Motion{0.5, 1e-5}, Motion{-0.1, 1e-5}}, true});
