@@ -100,7 +100,9 @@ void Contact<Dim>::refit(const std::vector<ReleasedBond<Dim>>& released, const N
   std::vector<Place> before;
   for (std::size_t k = 0; k < points_.size(); ++k) {
     ContactPoint<Dim>& point = points_[k];
-    if (!point.of_crack || (touched[point.side[0].particle[0]] | touched[point.side[1].particle[0]]) == 0) continue;
+    if (!point.of_crack || !point.at_start.isZero(0.0) ||
+        (touched[point.side[0].particle[0]] | touched[point.side[1].particle[0]]) == 0)
+      continue;
     look(point, places_[k]);
     changed.push_back(k);
     before.push_back(places_[k]);
@@ -112,6 +114,7 @@ void Contact<Dim>::refit(const std::vector<ReleasedBond<Dim>>& released, const N
 template <int Dim>
 void Contact<Dim>::follow_slip() {
   constexpr double far = 0.5;  // spacings
+  const double spacing = run_.setup.arrangement.spacing;
   std::vector<ContactPoint<Dim>> left;
   std::vector<std::size_t> changed;
   std::vector<Place> before;
@@ -119,7 +122,7 @@ void Contact<Dim>::follow_slip() {
   for (std::size_t k = 0; k < points_.size(); ++k) {
     ContactPoint<Dim>& point = points_[k];
     const double slid = places_[k].shift;
-    if (!point.of_crack && std::abs(slid) > far * run_.setup.arrangement.spacing) {
+    if (std::abs(slid) > far * spacing && places_[k].gap < spacing) {
       auto side = side_opposite(run_, point, slid);
       lost = lost || !side;
       if (!side) continue;
@@ -163,7 +166,6 @@ void Contact<Dim>::look(const ContactPoint<Dim>& point, Place& place) const {
   place.normal = Vector(place.tangent[1], -place.tangent[0]);
   place.gap = place.normal.dot(distance) + point.room;
   place.shift = place.tangent.dot(distance);
-  place.slid = place.shift - left.dot(point.at_start);
   place.motion = distance - point.distance;
 }
 
@@ -223,7 +225,7 @@ double Contact<Dim>::correct(ContactPoint<Dim>& point, const Place& place, doubl
   const double gap = place.gap + run_.dt * place.normal.dot(speed) - place.normal_give * point.pressure;
   const double shift = place.shift + run_.dt * place.tangent.dot(speed) - place.shear_give * point.shear;
   const double pressure = point.law.implicit_pressure(gap, place.normal_give);
-  if (point.pressure == 0.0 && (pressure == 0.0 || std::abs(place.slid) > point.longest_shift)) return 0.0;
+  if (point.pressure == 0.0 && pressure == 0.0) return 0.0;
   const double shear = point.law.implicit_shear(shift - point.slip, place.shear_give, pressure);
   const double more = pressure - point.pressure, more_shear = shear - point.shear;
   const Vector impulse = step * (more * place.normal + more_shear * place.tangent);

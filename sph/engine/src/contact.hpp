@@ -57,7 +57,6 @@ class Contact {
   struct Place {
     std::vector<Share> shares;
     Vector normal, tangent;
-    double slid = 0.0;                           ///< m, since the undeformed body
     double gap = 0.0, shift = 0.0;               ///< m
     double normal_give = 0.0, shear_give = 0.0;  ///< m/N: what a newton adds to gap and shift at n + 1
     double pressure = 0.0, shear = 0.0;          ///< N, of the step before

@@ -75,6 +75,35 @@ std::optional<FaceSide> side_behind(const RunData<2>& run, const FacePlace& face
   return fitted_side(run, face.at, along, particles);
 }
 
+Vec2 displacement(const RunData<2>& run, std::size_t i) {
+  return Vec2(run.particles.position[0][i], run.particles.position[1][i]) - start_of(run, i);
+}
+
+Vec2 displacement(const RunData<2>& run, const FaceSide& side) {
+  Vec2 sum = Vec2::Zero();
+  for (std::size_t k = 0; k < side.particle.size(); ++k) sum += side.weight[k] * displacement(run, side.particle[k]);
+  return sum;
+}
+
+/// The particles around a place of the rough face of a crack that move with side 1 and not with side 0.
+std::optional<FaceSide> side_that_moves_alike(const RunData<2>& run, const std::array<FaceSide, 2>& side,
+                                              const Vec2& place, const Vec2& along) {
+  const Vec2 other = displacement(run, side[0]), own = displacement(run, side[1]);
+  const double spacing = run.setup.arrangement.spacing;
+  std::vector<std::size_t> particles;
+  double nearest = reach;
+  for (std::size_t i = 0; i < run.particles.count; ++i) {
+    const double r = (start_of(run, i) - place).norm() / spacing;
+    if (r >= reach) continue;
+    const Vec2 u = displacement(run, i);
+    if ((u - own).norm() >= (u - other).norm()) continue;
+    particles.push_back(i);
+    nearest = std::min(nearest, r);
+  }
+  if (nearest > beside) return std::nullopt;
+  return fitted_side(run, place, along, particles);
+}
+
 /// The face in the middle of a bond that was cut, on the side of one of its ends, which is the first particle. The end
 /// alone when too few neighbours are left to it.
 FaceSide side_of_bond(const RunData<2>& run, const NeighbourLists& lists, std::size_t end, const Vec2& middle,
@@ -106,7 +135,6 @@ void add_points(const RunData<2>& run, std::size_t k, std::vector<ContactPoint<2
     point.side = {std::move(*right), std::move(*left)};
     point.normal = normal;
     point.room = cut.gap - cut.width;
-    point.longest_shift = std::numeric_limits<double>::infinity();
     point.law = contact_law(run, point.side, length / count, cut.friction);
     point.at_start = point.distance = cut.width * normal;
   }
@@ -144,7 +172,6 @@ std::optional<ContactPoint<Dim>> point_of_bond(const RunData<Dim>& run, const Ne
   point.of_crack = true;
   point.side = {FaceSide{{bond.from}, {1.0}, {0.0}}, FaceSide{{bond.to}, {1.0}, {0.0}}};
   point.normal = bond.normal;
-  point.longest_shift = spacing;
   point.law = contact_law(run, point.side, share * std::sqrt(run.particles.volume[bond.from]),
                           std::tan(degree * run.materials.parameters(bond.from).friction_angle_deg));
   fit_sides_of_bond(run, lists, point);
@@ -157,6 +184,7 @@ std::optional<FaceSide> side_opposite(const RunData<Dim>& run, const ContactPoin
   Vec<double, Dim> place = Vec<double, Dim>::Zero();  // the weights are right for linear fields
   for (std::size_t k = 0; k < side.particle.size(); ++k) place += side.weight[k] * start_of(run, side.particle[k]);
   const Vec<double, Dim> left(-point.normal[1], point.normal[0]);
+  if (point.of_crack) return side_that_moves_alike(run, point.side, place - slid * left, left);
   return side_behind(run, {std::nullopt, place - slid * left, left, point.normal});
 }
 

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <concepts>
-#include <limits>
 #include <optional>
 #include <type_traits>
 #include <vector>
@@ -26,9 +25,8 @@ struct ContactPoint {
   std::array<FaceSide, 2> side;
   Vec<double, Dim> normal;                               ///< unit, from side 0 to side 1, in the undeformed body
   Vec<double, Dim> at_start = Vec<double, Dim>::Zero();  ///< m, from place 0 to place 1, there
-  double room = 0.0;           ///< m: the gap is the distance of the places along the normal plus this
-  bool of_crack = false;       ///< its first particles are the ends of a bond that was cut
-  double longest_shift = 0.0;  ///< m: faces that have slid further apart do not meet again
+  double room = 0.0;      ///< m: the gap is the distance of the places along the normal plus this
+  bool of_crack = false;  ///< its first particles are the ends of a bond that was cut
   ContactLaw law;
 
   double slip = 0.0;                                     ///< m
@@ -45,8 +43,7 @@ void transfer(Archive& archive, S& side) requires std::same_as<std::remove_const
 
 template <class Archive, class P>
 void transfer(Archive& archive, P& p) requires std::same_as<std::remove_const_t<P>, ContactPoint<2>> {
-  archive(p.side), archive(p.normal), archive(p.at_start), archive(p.room), archive(p.of_crack),
-      archive(p.longest_shift);
+  archive(p.side), archive(p.normal), archive(p.at_start), archive(p.room), archive(p.of_crack);
   archive(p.law.normal_stiffness), archive(p.law.shear_stiffness), archive(p.law.friction);
   archive(p.slip), archive(p.pressure), archive(p.shear), archive(p.force), archive(p.distance);
 }

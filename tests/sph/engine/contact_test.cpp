@@ -288,6 +288,33 @@ TEST(Contact, FacesThatSlideFarMeetWhatIsOpposite) {
   EXPECT_LT(std::abs(run.energies().error()), 1e-3 * run.energies().external);
 }
 
+/// A bar is torn apart, put together again under a force, and its upper half dragged along by three spacings: the faces
+/// of the crack slide with the friction of the material, and bear where something is opposite.
+TEST(Contact, FacesOfACrackThatSlideFar) {
+  const double force = 2e4;
+  RunSetup<2> s = torn_and_closed(10.0);
+  s.options.damping = 0.07;
+  s.groups[1].drive[1] = Drive(Drive::Kind::displacement, TimeTable{{0.0, 1e-3}, {0.0, 600e-6}, true, 0.0});
+  Simulation<2> run(s);
+  advance_to(run, 1.1e-3);
+  run.set_drive(1, 1, Drive(Drive::Kind::force, TimeTable::rise(0.0, -force, 4e-4)));
+  advance_to(run, 2.5e-3);
+  run.set_drive(1, 0, Drive(Drive::Kind::velocity, TimeTable::rise(0.0, 4.0, 2e-4)));
+  advance_to(run, 3.2e-3);
+  Vector sum = vec(0.0, 0.0);
+  double count = 0.0;
+  while (run.time() < 3.4e-3) {
+    ASSERT_TRUE(run.step().ok());
+    sum += run.reaction(1), count += 1.0;
+  }
+  const double friction = std::tan(s.parameters.friction_angle_deg * M_PI / 180.0), ratio = -sum[0] / sum[1];
+  EXPECT_NEAR(sum[1] / count, -force, 0.01 * force);
+  EXPECT_GT(ratio, 0.97 * friction);
+  EXPECT_LT(ratio, 1.3 * friction);  // the crack has a step
+  EXPECT_LT(run.overlap(), 0.01 * spacing);
+  EXPECT_LT(std::abs(run.energies().error()), 0.01 * run.energies().external);
+}
+
 RunSetup<2> sliding(int threads) {
   RunSetup<2> s = cut_block(20, 12, 0.5);
   hold_ends(s, 12.0 * spacing, {"top", {Motion{0.5, 1e-5}, Motion{-0.1, 1e-5}}, true});
