@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -232,10 +233,14 @@ TEST(ShippedShear, WingCracksBeginAtTheTipsOfASlidingFlaw) {
       if (run.cracked() == 0) slip_over_right = slip / (4.0 * flaw.driving() * load / area * flaw.a / plane_modulus);
       if (!begun && length > 4e-3) {
         begun = true;
+        std::printf("flaw at %g degrees: slip %.3f, planes %.1f (%.1f) degrees, load of the wing %.3f\n",
+                    flaw.to_load_deg, slip_over_right, wings.planes_deg(now), right.angle_deg,
+                    load / area / right.pressure);
         EXPECT_NEAR(load / area, right.pressure, 0.1 * right.pressure) << flaw.to_load_deg;
         EXPECT_NEAR(wings.planes_deg(now), right.angle_deg, 5.0) << flaw.to_load_deg;
       }
       if (length > 8e-3) {
+        std::printf("places %.1f degrees\n", wings.place_deg(now));
         EXPECT_NEAR(wings.place_deg(now), right.angle_deg, 10.0) << flaw.to_load_deg;
       }
       load = slip = 0.0;
@@ -279,6 +284,8 @@ TEST(ShippedShear, KalthoffsPlateCracksAtSeventyDegrees) {
     if (run.time() < 1e-5 * static_cast<double>(length.size() + 1)) continue;
     tip = crack_tip(spots(run, specimen), scene.body.notches[0]);
     length.push_back(tip.norm());
+    std::printf("%2.0f us: %4.1f mm at %.1f degrees\n", 1e6 * run.time(), 1e3 * tip.norm(),
+                std::atan2(tip.y(), tip.x()) / degree);
   }
   // Even strain between two fronts: impedance times velocity.
   const double wave = std::sqrt(squeezed * p.density) * 13.0 * 0.048 * scene.thickness;
@@ -333,6 +340,7 @@ TEST(ShippedShear, ShearBandsAreBetweenRoscoeAndCoulomb) {
     for (const std::vector<Point>& band : {upper, lower}) {
       ASSERT_GT(band.size(), 10u) << arrangement;
       const double angle = steepness_deg(band);
+      std::printf("band among %s particles: %.1f degrees\n", arrangement, angle);
       EXPECT_GT(angle, 45.0 + 0.5 * scene.parameters.dilation_angle_deg - 2.0) << arrangement;
       EXPECT_LT(angle, 45.0 + 0.5 * scene.parameters.friction_angle_deg) << arrangement;
     }
@@ -392,6 +400,8 @@ TEST(ShippedShear, ACutDiscIsAsStiffAsItsFrictionLetsIt) {
     }
     const double more = compliance_of_sliding_cut(0.01, 0.025, 0.025, 20e9 / 0.96, angle);
     const double right = 1.0 / (1.0 / whole + more), slid = stiffness(angle, cut(angle, 0.0));
+    std::printf("cut at %g degrees: %.4g N/m without friction, closed form %.4g, whole disc %.4g\n", angle, slid, right,
+                whole);
     EXPECT_NEAR(slid, right, 0.015 * right) << angle;
   }
 }
