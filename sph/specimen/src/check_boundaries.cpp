@@ -9,6 +9,7 @@ namespace {
 
 /// The feet of a platen's columns that stand on the body.
 struct Footing {
+  std::string_view key = "at";  ///< that says where
   std::size_t columns = 0;
   std::vector<Point> feet;
   Point direction = Point::Zero();  ///< outward, of length one
@@ -31,7 +32,7 @@ std::string body_reach(const Scene& scene) {
 
 void check_footing(const SceneCheck& c, const Place& p, const Platen& platen, const Footing& f) {
   if (f.feet.empty()) {
-    return with(p, "at", [&](const Place& at) {
+    return with(p, f.key, [&](const Place& at) {
       c.problem(at, "the platen is off the body: nothing lies on the line through it along \"direction\" = " +
                         brief(platen.direction) + " (" + body_reach(c.scene) + ")" +
                         likely_place(platen.at, c.scene.body.shape));
@@ -76,7 +77,7 @@ void check_side(const SceneCheck& c, const Place& p, const Platen& platen, const
     });
   }
   if (-outward < far * (high - low).maxCoeff()) return;
-  with(p, "at", [&](const Place& at) {
+  with(p, f.key, [&](const Place& at) {
     c.warn(at, "lies " + brief(-outward) + " m above the surface; the platen stands on it, at " + brief(foot));
   });
 }
@@ -88,7 +89,7 @@ void check_ground(const SceneCheck& c, const Place& p, const Platen& platen, con
   for (const Point& foot : f.feet) hollow += contains(s.body, foot - 0.5 * s.spacing * d) ? 0U : 1U;
   const std::string over = std::to_string(hollow) + " of its " + std::to_string(f.columns) +
                            " columns stand over a hole or a slot, where nothing carries them";
-  at_member(p, "at", [&](const Place& at) {
+  at_member(p, f.key, [&](const Place& at) {
     if (hollow == f.columns) return c.problem(at, over);
     if (hollow > 0) return c.warn(at, over);
     for (std::size_t k = 0; k < s.body.notches.size(); ++k) {
@@ -113,7 +114,7 @@ void check_overlap(const SceneCheck& c, const Place& p, const Footing& own, cons
       for (const Point& b : earlier[k].feet) nearest = std::min(nearest, (a - b).norm());
     }
     if (nearest > 0.9 * c.scene.spacing) continue;
-    at_member(p, "at", [&](const Place& at) {
+    at_member(p, own.key, [&](const Place& at) {
       c.problem(at, "the platen lies on the one of boundary " + io::in_quotes(c.scene.boundaries[k].name) +
                         ": they touch the surface at the same places, " + brief(own.feet.front()) + " to " +
                         brief(own.feet.back()));
@@ -126,19 +127,20 @@ void check_overlap(const SceneCheck& c, const Place& p, const Footing& own, cons
 void check_boundaries(const SceneCheck& c) {
   std::vector<Footing> earlier;
   for_entries(c, "boundaries", [&](const Place& p, std::size_t k) {
-    const auto& platen = c.scene.boundaries[k].platen;
-    Footing f;
-    if (platen) {
-      f = footing_of(c.scene, *platen);
-      check_footing(c, p, *platen, f);
+    earlier.emplace_back();
+    const std::vector<Platen> all_places = platens_of(c.scene.boundaries[k]);
+    for (const Platen& platen : all_places) {
+      Footing f = footing_of(c.scene, platen);
+      if (&platen != &all_places.front()) f.key = "also_at";
+      check_footing(c, p, platen, f);
+      if (f.feet.size() == f.columns) {
+        check_side(c, p, platen, f);
+        check_hinge(c, p, c.scene.boundaries[k], f);
+        check_ground(c, p, platen, f);
+        check_overlap(c, p, f, earlier);
+      }
+      earlier.back().feet.insert(earlier.back().feet.end(), f.feet.begin(), f.feet.end());
     }
-    if (platen && f.feet.size() == f.columns) {
-      check_side(c, p, *platen, f);
-      check_hinge(c, p, c.scene.boundaries[k], f);
-      check_ground(c, p, *platen, f);
-      check_overlap(c, p, f, earlier);
-    }
-    earlier.push_back(std::move(f));
   });
 }
 

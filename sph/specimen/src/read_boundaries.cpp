@@ -4,20 +4,28 @@
 namespace fpz::specimen::detail {
 namespace {
 
-constexpr std::array<std::string_view, 16> boundary_keys = {
+constexpr std::array<std::string_view, 17> boundary_keys = {
     "name",     "at",      "direction", "width",    "layers",       "fit",   "jaw_radius",
     "friction", "elastic", "hinge",     "velocity", "displacement", "force", "machine_stiffness",
-    "material", "rigid"};
+    "material", "rigid",   "also_at"};
 
 /// true, or the point about which the boundary turns.
 void read_hinge(const InputReader& r, const Place& p, Boundary& b) {
   if (p.value().is(JsonValue::Kind::boolean)) {
     b.hinged = p.value().boolean;
     if (b.hinged && !b.platen) r.problem(p, "particles of a file have no middle of their foot: give the point [x, y]");
+    if (b.hinged && !b.also_at.empty()) r.problem(p, "a boundary in several places has no foot: give the point [x, y]");
     return;
   }
   b.hinge = point(r, p);
   b.hinged = b.hinge.has_value();
+}
+
+void read_further_places(const InputReader& r, const Place& place, Boundary& b) {
+  if (!r.array(place, "points")) return;
+  for (const JsonValue& item : place.value().items) {
+    if (const std::optional<Point> at = point(r, Place(place, item))) b.also_at.push_back(*at);
+  }
 }
 
 Boundary read_boundary(const InputReader& r, const Place& place, std::span<const std::string> gauges,
@@ -46,6 +54,7 @@ Boundary read_boundary(const InputReader& r, const Place& place, std::span<const
     }
     with(place, "friction", [&](const Place& p) { platen.friction = not_negative(r, p); });
     b.platen = platen;
+    with(place, "also_at", [&](const Place& p) { read_further_places(r, p, b); });
   }
   if (!b.platen) {
     with(place, "friction", [&](const Place& p) {
@@ -77,3 +86,13 @@ void read_boundaries(const InputReader& r, const Place& place, std::span<const s
 }
 
 }  // namespace fpz::specimen::detail
+
+std::vector<fpz::specimen::Platen> fpz::specimen::platens_of(const Boundary& boundary) {
+  if (!boundary.platen) return {};
+  std::vector<Platen> all = {*boundary.platen};
+  for (const Point& at : boundary.also_at) {
+    all.push_back(*boundary.platen);
+    all.back().at = at;
+  }
+  return all;
+}

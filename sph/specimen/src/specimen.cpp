@@ -44,7 +44,7 @@ sph::Arrangement<2> place(const Scene& scene) {
       continue;
     }
     try {
-      place_platen(a, scene.body.shape, *boundary.platen, group);
+      for (const Platen& platen : platens_of(boundary)) place_platen(a, scene.body.shape, platen, group);
     } catch (const std::invalid_argument& e) {
       fail(scene, "boundary \"" + boundary.name + "\": " + e.what());
     }
@@ -160,8 +160,10 @@ Specimen make_specimen(const Scene& scene) {
     group.keeps_to_itself = true;
     if (b.platen && b.platen->friction) {
       group.bonded = false;
-      for (const sph::Cut<2>& cut : contact_of(scene.body.shape, *b.platen, scene.spacing)) {
-        s.setup.arrangement.cuts.push_back(cut);
+      for (const Platen& platen : platens_of(b)) {
+        for (const sph::Cut<2>& cut : contact_of(scene.body.shape, platen, scene.spacing)) {
+          s.setup.arrangement.cuts.push_back(cut);
+        }
       }
     }
     if (b.hinged) group.hinge = b.hinge ? *b.hinge : middle_of_foot(scene, *b.platen);

@@ -27,6 +27,7 @@ struct ParticleFile {
 struct Boundary {
   std::string name;
   std::optional<Platen> platen;  ///< none: its particles come from the particle file
+  std::vector<Point> also_at;    ///< further places of the platen, whose particles move as one with it
   Actuations drive;              ///< per component; none: free
   bool elastic = true;
   bool rigid = false;        ///< all its particles have one velocity in free components too
@@ -35,6 +36,9 @@ struct Boundary {
   bool hinged = false;
   std::optional<Point> hinge;
 };
+
+/// The platen of a boundary in all its places; empty for one of a particle file.
+[[nodiscard]] std::vector<Platen> platens_of(const Boundary& boundary);
 
 /// A material besides that of the scene.
 struct SceneMaterial {
