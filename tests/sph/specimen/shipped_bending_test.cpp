@@ -61,6 +61,7 @@ TEST(ShippedBending, FourPointBendingBreaksAsFiniteElementsDo) {
         "four_point_bending", {"spacing=0.005", "stop.load_below=0.6", "notches[0].length=" + std::to_string(notch)});
     EXPECT_NE(r.result.reason.find("stop.load_below"), std::string::npos) << r.result.reason;
     const double peak = peak_of_finite_elements(r.scene.parameters, notch);
+    RecordProperty("peak_of_finite_elements_N_notch_" + std::to_string(notch), std::to_string(peak));
     EXPECT_NEAR(r.found.peak_load, peak, 0.05 * peak) << notch;
     const double stiffness = 1.0 / compliance_of_beam_theory(r.scene.parameters, notch);
     EXPECT_NEAR(r.found.stiffness, stiffness, 0.05 * stiffness) << notch;

@@ -196,6 +196,20 @@ TEST(ShippedTension, FourPointShearSharesTheLoadAsTheLeverDoes) {
   EXPECT_GT(sum / weight, -0.02);
 }
 
+/// Without confinement the onset surface sqrt(r^2 + A^2) = c cos(phi) + r sin(phi) is reached at the stress 2 r.
+TEST(ShippedTension, UniaxialCompressionBreaksAtItsStrength) {
+  const ShippedRun r = run_shipped("uniaxial_compression", {"spacing=0.005", "stop.load_below=0.8"});
+  EXPECT_NE(r.result.reason.find("stop.load_below"), std::string::npos) << r.result.reason;
+  const fpz::Parameters& m = r.scene.parameters;
+  const double phi = m.friction_angle_deg * std::numbers::pi / 180.0, sine = std::sin(phi);
+  const double apex = m.cohesion - m.tensile_strength * std::tan(phi), c = m.cohesion * std::cos(phi);
+  const double radius =
+      (c * sine + std::sqrt(c * c * sine * sine + (1.0 - sine * sine) * (c * c - apex * apex))) / (1.0 - sine * sine);
+  const double strength = 2.0 * radius * 0.05 * 0.05;
+  EXPECT_NEAR(strength, 70.8e3, 0.1e3);
+  EXPECT_NEAR(r.found.peak_load, strength, 0.04 * strength);  // ten rows between bonded platens
+}
+
 TEST(ShippedTension, ALeverThatStandsBesideTheBeamIsNamed) {
   const auto said = [](const char* change) -> std::string {
     try {
