@@ -139,6 +139,7 @@ void check_boundaries(const SceneCheck& c) {
         check_ground(c, p, platen, f);
         check_overlap(c, p, f, earlier);
       }
+      earlier.back().direction = f.direction;
       earlier.back().feet.insert(earlier.back().feet.end(), f.feet.begin(), f.feet.end());
     }
   });

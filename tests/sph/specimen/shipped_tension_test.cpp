@@ -79,6 +79,16 @@ TEST(ShippedTension, LPanelBreaksAtThePeakOfTheTests) {
   EXPECT_LT(crack.high, 0.29);
 }
 
+/// The disc between bonded platens of 4 mm, in which only tension governs, cracks first at the load of the closed form.
+TEST(ShippedTension, DiscCracksAtTheLoadOfTheClosedForm) {
+  const ShippedRun r = run_shipped("disc", {"spacing=0.001", "stop.load_below=0.95"});
+  const History& h = r.history();
+  std::size_t row = 0;
+  while (row + 1 < h.rows() && h.at(row, "damaged_particles") == 0.0) ++row;
+  const double splitting = 0.5 * std::numbers::pi * 0.05 * 0.025 * r.scene.parameters.tensile_strength;
+  EXPECT_NEAR(h.at(row, "load"), splitting, 0.03 * splitting);
+}
+
 /// Between flat platens and between jaws: the stresses of the closed form at the centre while the disc is elastic, and
 /// the peak when the one across the load reaches the strength. The process zone, twice the diameter, lets the load rise
 /// a little; the crack lies along it.
