@@ -10,9 +10,13 @@ ParticleMaterials<Dim>::ParticleMaterials(const RunSetup<Dim>& setup, const std:
                                           std::size_t padded) {
   add(setup.parameters, setup.setting);
   for (const Parameters& p : setup.materials.further) add(p, setup.setting);
-  differ_ = !setup.materials.of_particle.empty() || !setup.weak_planes.of_particle.empty();
+  const bool random = !setup.materials.strength_factor.empty();
+  differ_ = random || !setup.materials.of_particle.empty() || !setup.weak_planes.of_particle.empty();
   if (!differ_) return;
-  for (const std::size_t k : id) of_slot_.push_back(setup.materials.of(k));
+  for (const std::size_t k : id) {
+    of_slot_.push_back(random ? list_.size() : setup.materials.of(k));
+    if (random) add(parameters_of_particle(setup, k), setup.setting);
+  }
   fields(Allocate{padded});
   for (std::size_t i = 0; i < id.size(); ++i) {
     const Material<double>& m = list_[index(i)].constants;

@@ -111,6 +111,11 @@ void check_materials(const RunSetup<Dim>& s, Messages& m) {
   for (std::size_t k = 0; k < s.materials.count(); ++k) {
     check_parameters(parameters_of(s, k), s.setting, k == 0 ? "" : "material " + std::to_string(k) + ": ", m);
   }
+  const std::vector<double>& strength = s.materials.strength_factor;
+  m.require(strength.empty() || strength.size() == s.arrangement.size(),
+            "strength_factor: must have one entry per particle");
+  m.require(std::all_of(strength.begin(), strength.end(), [](double f) { return std::isfinite(f) && f > 0.0; }),
+            "strength_factor: must be positive");
   const std::vector<int>& of_particle = s.materials.of_particle;
   if (of_particle.empty())
     return m.require(s.materials.further.empty(), "materials: no particle has any but the first");

@@ -44,6 +44,7 @@ std::uint64_t fingerprint(const RunSetup<Dim>& s) {
   };
   for (std::size_t k = 0; k < s.materials.count(); ++k) print(parameters_of(s, k));
   w(s.materials.of_particle);
+  w(s.materials.strength_factor);
   for (const Parameters& plane : s.weak_planes.parameters) print(plane);
   w(s.weak_planes.of_particle);
   w(s.weak_planes.normal);

@@ -81,8 +81,8 @@ void check_scene(const InputReader& r, const Place& root, Scene& scene) {
   check_end(c);
   if (!scene.has_shape) return;
   // A body in millimetres fits nothing else, and a wrong hole or notch is under every boundary: one thing at a time.
-  for (const auto check : {check_sizes, check_holes, check_notches, check_regions, check_interfaces, check_rows,
-                           check_boundaries, check_gauges, check_loads}) {
+  for (const auto check : {check_sizes, check_holes, check_notches, check_regions, check_interfaces,
+                           check_strength_field, check_rows, check_boundaries, check_gauges, check_loads}) {
     if (r.problems().size() > before) return;
     check(c);
   }

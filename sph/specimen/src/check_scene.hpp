@@ -23,6 +23,7 @@ void check_notches(const SceneCheck& c);
 void check_holes(const SceneCheck& c);
 void check_regions(const SceneCheck& c);
 void check_interfaces(const SceneCheck& c);
+void check_strength_field(const SceneCheck& c);
 /// The spacing against the narrowest part of the body and the process zone.
 void check_rows(const SceneCheck& c);
 void check_boundaries(const SceneCheck& c);

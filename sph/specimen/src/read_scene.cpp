@@ -9,10 +9,10 @@ namespace {
 using namespace detail;
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 22> root_keys = {
-    "name",  "description", "source",    "material",   "setting",     "thickness", "spacing",        "shape",
-    "holes", "notches",     "regions",   "interfaces", "arrangement", "method",    "initial_stress", "boundaries",
-    "loads", "gauges",      "toughness", "stages",     "stop",        "output"};
+constexpr std::array<std::string_view, 23> root_keys = {
+    "name",       "description", "source",  "material",   "setting",        "thickness",   "spacing", "shape",
+    "holes",      "notches",     "regions", "interfaces", "strength_field", "arrangement", "method",  "initial_stress",
+    "boundaries", "loads",       "gauges",  "toughness",  "stages",         "stop",        "output"};
 
 /// Kernel gradients keep constant stress in equilibrium where all neighbourhoods are alike: on lattices.
 void judge_operator(Scene& scene) {
@@ -109,6 +109,7 @@ Scene read_tree(JsonValue& root, const std::string& origin, const io::ReadLimits
   read_arrangement(r, top, scene);
   with(top, "regions", [&](const Place& p) { read_regions(r, p, of_regions, scene); });
   with(top, "interfaces", [&](const Place& p) { read_interfaces(r, p, of_interfaces, scene); });
+  with(top, "strength_field", [&](const Place& p) { read_strength_field(r, p, scene); });
   with(top, "initial_stress", [&](const Place& p) { scene.initial_stress = read_stress(r, p); });
   with_required(r, top, "boundaries", [&](const Place& p) { read_boundaries(r, p, gauges, of_boundaries, scene); });
   with(top, "loads", [&](const Place& p) { read_loads(r, p, scene); });

@@ -112,6 +112,7 @@ bool read_actuations(const InputReader& r, const Place& boundary, const Actuatio
                      std::array<bool, 2>* stated = nullptr);
 
 /// `materials`: numbers of the materials of the interfaces, of the regions, of the boundaries.
+void read_strength_field(const InputReader& r, const Place& place, Scene& scene);
 void read_interfaces(const InputReader& r, const Place& place, std::span<const std::size_t> materials, Scene& scene);
 void read_regions(const InputReader& r, const Place& place, std::span<const std::size_t> materials, Scene& scene);
 void read_boundaries(const InputReader& r, const Place& place, std::span<const std::string> gauges,

@@ -173,6 +173,7 @@ Specimen make_specimen(const Scene& scene) {
   try {
     detail::assign_materials(scene, s.setup);
     detail::assign_interfaces(scene, s.setup);
+    if (scene.strength_field) s.setup.materials.strength_factor = strength_factors(*scene.strength_field, a.position);
   } catch (const std::invalid_argument& e) {
     fail(scene, e.what());
   }
@@ -198,9 +199,9 @@ Specimen make_specimen(const Scene& scene) {
 double mean_fracture_energy(const sph::Simulation<2>& run, const Specimen& specimen) {
   const sph::Particles<2>& p = run.particles();
   const auto energy = [](const Parameters& m) { return m.tensile_strength * m.delta0; };
-  const auto parameters = [&](std::size_t i) -> const Parameters& {
+  const auto parameters = [&](std::size_t i) {
     const sph::RunSetup<2>& s = specimen.setup;
-    if (!run.cracked_on_weak_plane(i)) return parameters_of(s, s.materials.of(p.id[i]));
+    if (!run.cracked_on_weak_plane(i)) return parameters_of_particle(s, p.id[i]);
     return s.weak_planes.parameters[static_cast<std::size_t>(s.weak_planes.of_particle[p.id[i]])];
   };
   double sum = 0.0, weight = 0.0;
@@ -297,6 +298,9 @@ PointCloud frame_of(const sph::Simulation<2>& run, const Specimen& specimen) {
   if (!interfaces.empty()) {
     auto& interface = add("interface", 1);
     for (const int k : interfaces) interface.push_back(k + 1);
+  }
+  if (const auto& strength = specimen.setup.materials.strength_factor; !strength.empty()) {
+    add("strength_factor", 1) = strength;
   }
   if (bulk.size() > 1) {
     auto& material = add("material", 1);

@@ -106,6 +106,25 @@ Json interfaces_json(const SummaryInput& in) {
   return list;
 }
 
+/// The field as asked for, and what its particles have by chance.
+Json strength_json(const SummaryInput& in) {
+  const StrengthField& field = *in.scene.strength_field;
+  const sph::RunSetup<2>& setup = in.specimen.setup;
+  double volume = 0.0, mean = 0.0, square = 0.0, least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < setup.arrangement.size(); ++i) {
+    if (setup.arrangement.group[i] != sph::Arrangement<2>::specimen) continue;
+    const double v = setup.arrangement.volume[i], f = setup.materials.strength_factor[i];
+    volume += v, mean += v * f, square += v * f * f, least = std::min(least, f);
+  }
+  mean /= volume;
+  return {{"weibull_modulus", field.weibull_modulus},
+          {"correlation_length", field.correlation_length},
+          {"seed", field.seed},
+          {"mean", mean},
+          {"deviation", std::sqrt(std::max(0.0, square / volume - mean * mean))},
+          {"least", least}};
+}
+
 Json stages_json(const std::vector<EndedStage>& stages) {
   Json list = Json::array();
   for (const EndedStage& s : stages) {
@@ -328,6 +347,7 @@ std::string summary_text(const SummaryInput& in) {
   j["material"] = material_json(in.scene.material_name, in.scene.parameters);
   if (!in.scene.further_materials.empty()) j["materials"] = materials_json(in.scene, in.specimen.setup);
   if (!in.scene.interfaces.empty()) j["interfaces"] = interfaces_json(in);
+  if (in.scene.strength_field) j["strength_field"] = strength_json(in);
   j["setting"] = to_string(in.scene.setting);
   j["method"] = method_json(in.scene.options);
   j["spacing"] = in.scene.spacing;

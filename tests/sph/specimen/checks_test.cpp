@@ -497,6 +497,31 @@ TEST(Checks, Interfaces) {
   });
 }
 
+TEST(Checks, StrengthFields) {
+  const auto field = [](const std::string& text) { return Overrides{"strength_field={" + text + "}"}; };
+  expect_answers({
+      {refused, beam, field(R"("weibull_modulus": 10)"), {"strength_field", "correlation_length"}},
+      {refused, beam, field(R"("weibull_modulus": 0, "correlation_length": 0.01)"), {"strength_field.weibull_modulus"}},
+      {refused, beam, field(R"("weibull_modulus": 10, "correlation_length": -1)"), {"correlation_length"}},
+      {refused,
+       beam,
+       field(R"("weibull_modulus": 10, "correlation_length": 0.01, "sed": 3)"),
+       {"strength_field.sed", "did you mean \"seed\""}},
+      {warned,
+       beam,
+       field(R"("weibull_modulus": 10, "correlation_length": 0.001)"),
+       {"strength_field.correlation_length: 0.001: less than two spacings"}},
+      {warned,
+       beam,
+       field(R"("weibull_modulus": 10, "correlation_length": 10)"),
+       {"strength_field.correlation_length: 10: longer than the body", "10 mm was probably meant"}},
+      {warned,
+       beam,
+       field(R"("weibull_modulus": 1.5, "correlation_length": 0.01)"),
+       {"strength_field.weibull_modulus: 1.5: scatters far more than rock"}},
+  });
+}
+
 TEST(Checks, ParticlesFromAFile) {
   ParticleFileScene file;
   const Overrides stiff = {"material.shear_stiffness=1e14"};

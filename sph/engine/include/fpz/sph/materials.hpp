@@ -12,11 +12,14 @@ namespace fpz::sph {
 struct Materials {
   std::vector<Parameters> further;  ///< materials 1, 2, ...; rve_length is ignored
   std::vector<int> of_particle;     ///< in the order of the arrangement; empty: all have material 0
+  /// Of the tensile strength and the cohesion of the particle's material, likewise; empty: 1.
+  std::vector<double> strength_factor;
 
   [[nodiscard]] std::size_t count() const { return 1 + further.size(); }
   [[nodiscard]] std::size_t of(std::size_t id) const {
     return of_particle.empty() ? 0 : static_cast<std::size_t>(of_particle[id]);
   }
+  [[nodiscard]] double strength(std::size_t id) const { return strength_factor.empty() ? 1.0 : strength_factor[id]; }
 };
 
 /// Planes through particles that have a strength of their own: bedding, mortar joints. A particle cracks on its plane

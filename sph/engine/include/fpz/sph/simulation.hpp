@@ -50,6 +50,15 @@ template <int Dim>
   return material == 0 ? setup.parameters : setup.materials.further[material - 1];
 }
 
+/// The parameters of a particle of the arrangement, with its own strength.
+template <int Dim>
+[[nodiscard]] Parameters parameters_of_particle(const RunSetup<Dim>& setup, std::size_t id) {
+  Parameters p = parameters_of(setup, setup.materials.of(id));
+  p.tensile_strength *= setup.materials.strength(id);
+  p.cohesion *= setup.materials.strength(id);
+  return p;
+}
+
 /// The time step of eq 32, s: courant * h/sqrt(E/rho), times sqrt(mass_scale); of the fastest material.
 template <int Dim>
 [[nodiscard]] double courant_step(const RunSetup<Dim>& setup);

@@ -13,6 +13,7 @@
 #include "fpz/specimen/gauge.hpp"
 #include "fpz/specimen/loading.hpp"
 #include "fpz/specimen/placing.hpp"
+#include "fpz/specimen/strength_field.hpp"
 #include "fpz/specimen/toughness.hpp"
 #include "fpz/sph/options.hpp"
 
@@ -115,6 +116,7 @@ struct Scene {
   std::vector<Region> regions;                   ///< later ones cover earlier ones
   std::vector<SceneMaterial> interface_materials;
   std::vector<Interface> interfaces;  ///< later ones go before earlier ones
+  std::optional<StrengthField> strength_field;
   Setting setting = Setting::plane_strain;
   double thickness = 0.0;  ///< m
   double spacing = 0.0;    ///< m
