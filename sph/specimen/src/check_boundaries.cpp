@@ -38,6 +38,15 @@ void check_footing(const SceneCheck& c, const Place& p, const Platen& platen, co
                         likely_place(platen.at, c.scene.body.shape));
     });
   }
+  constexpr std::size_t least_to_slide = 2;  // columns: a face has places between particles
+  if (platen.friction && f.columns < least_to_slide) {
+    return at_member(p, "width", [&](const Place& at) {
+      c.problem(at,
+                "has " + std::to_string(f.columns) +
+                    " column of particles, too little for a face that presses and slides (\"friction\"); must be >= " +
+                    brief(static_cast<double>(least_to_slide) * c.scene.spacing) + ", or the \"spacing\" smaller");
+    });
+  }
   if (f.feet.size() == f.columns) return;
   const double width = platen.width * static_cast<double>(f.feet.size()) / static_cast<double>(f.columns);
   with(p, "width", [&](const Place& at) {

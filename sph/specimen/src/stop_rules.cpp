@@ -34,7 +34,9 @@ bool load_has_dropped(const StopState& s) {
   constexpr std::size_t rows = 3;  // one alone may be an oscillation
   const History& h = s.recorder.history();
   if (!s.stage.stop.load_below || s.run.cracked() == 0 || h.rows() <= rows + 1) return false;
-  if (!(s.recorder.peak_load() > 0.0)) return false;  // what never rose cannot have dropped
+  // What never rose cannot have dropped: noise is less than a particle bears.
+  const double of_a_particle = s.scene.parameters.tensile_strength * s.scene.spacing * s.scene.thickness;
+  if (!(s.recorder.peak_load() > 1e-3 * of_a_particle)) return false;
   bool below = true;
   for (std::size_t k = 1; k <= rows; ++k) {
     below = below && h.at(h.rows() - k, "load") < *s.stage.stop.load_below * s.recorder.peak_load();
