@@ -22,8 +22,8 @@ double concentration(double stiffness_ratio, double poisson) {
 
 TEST(ShippedScenes, AStoneInMortarIsPassedByTheCrack) {
   const Scene scene = read_scene(fs::path(FPZ_DATA_DIR) / "scenes/stone_in_mortar.json",
-                                 {"spacing=0.0025", "boundaries[0].velocity.y.speed=0.01", "method.courant=0.9", "stop={\"time\": 0.02}",
-                                  "output.frames=0", "output.pictures=false"});
+                                 {"spacing=0.0025", "boundaries[0].velocity.y.speed=0.01", "method.courant=0.9",
+                                  "stop={\"time\": 0.02}", "output.frames=0", "output.pictures=false"});
   RunRequest request;
   request.folder = fpz::test::fresh_path("stone_in_mortar");
   const RunResult r = run_scene(scene, request);
