@@ -112,30 +112,30 @@ void Contact<Dim>::refit(const std::vector<ReleasedBond<Dim>>& released, const N
 }
 
 template <int Dim>
-void Contact<Dim>::follow_slip() {
+bool Contact<Dim>::follow_slip() {
   constexpr double far = 0.5;  // spacings
   const double spacing = run_.setup.arrangement.spacing;
+  const auto has_slid = [&](const Place& p) { return std::abs(p.shift) > far * spacing && p.gap < spacing; };
+  if (std::none_of(places_.begin(), places_.end(), has_slid)) return false;
   std::vector<ContactPoint<Dim>> left;
   std::vector<std::size_t> changed;
   std::vector<Place> before;
-  bool lost = false;
   for (std::size_t k = 0; k < points_.size(); ++k) {
     ContactPoint<Dim>& point = points_[k];
-    const double slid = places_[k].shift;
-    if (std::abs(slid) > far * spacing && places_[k].gap < spacing) {
+    if (has_slid(places_[k])) {
+      const double slid = places_[k].shift;
       auto side = side_opposite(run_, point, slid);
-      lost = lost || !side;
       if (!side) continue;
       point.side[1] = std::move(*side);
       point.at_start -= slid * Vector(-point.normal[1], point.normal[0]);
       changed.push_back(left.size());
       before.push_back(places_[k]);
     }
-    left.push_back(point);
+    left.push_back(std::move(point));
   }
-  if (changed.empty() && !lost) return;
   points_ = std::move(left);
   go_on(changed, before);
+  return true;
 }
 
 template <int Dim>
@@ -171,12 +171,14 @@ void Contact<Dim>::look(const ContactPoint<Dim>& point, Place& place) const {
 
 template <int Dim>
 bool Contact<Dim>::prepare() {
+  const auto look_at_all = [this] {
+    for (std::size_t k = 0; k < points_.size(); ++k) look(points_[k], places_[k]);
+  };
+  look_at_all();
+  if (follow_slip()) look_at_all();
   bool touching = false;
-  for (std::size_t k = 0; k < points_.size(); ++k) look(points_[k], places_[k]);
-  follow_slip();
   for (std::size_t k = 0; k < points_.size(); ++k) {
     ContactPoint<Dim>& point = points_[k];
-    look(point, places_[k]);
     point.distance += places_[k].motion;
     point.slip = point.law.slip_at(places_[k].gap, places_[k].shift, point.slip);
     touching = touching || point.pressure > 0.0;

@@ -67,8 +67,9 @@ class Contact {
   void find_members();
   static void add_shares(const ContactPoint<Dim>& point, const std::vector<std::size_t>& slots, Place& place);
   void refit(const std::vector<ReleasedBond<Dim>>& released, const NeighbourLists& lists);
-  /// Gives points of cuts that have slid the partners that are opposite now; drops those where nothing is.
-  void follow_slip();
+  /// Gives points that have slid the partners that are opposite now, and drops those where nothing is; says whether
+  /// there were any.
+  bool follow_slip();
   /// Points whose particles have changed go on at the gap, the shift and the distance that they had.
   void go_on(const std::vector<std::size_t>& changed, const std::vector<Place>& before);
   /// Gap and shift of a point whose shares are known.

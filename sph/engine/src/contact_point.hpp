@@ -64,7 +64,7 @@ template <int Dim>
 template <int Dim>
 void fit_sides_of_bond(const RunData<Dim>& run, const NeighbourLists& lists, ContactPoint<Dim>& point);
 
-/// The side 1 that is opposite side 0 of a point of a cut when side 1 has moved to the left of the normal by `slid` (m)
+/// The side 1 that is opposite side 0 of a point when side 1 has moved to the left of the normal by `slid` (m)
 /// more than the sides that it has; nothing where the other face has ended.
 template <int Dim>
 [[nodiscard]] std::optional<FaceSide> side_opposite(const RunData<Dim>& run, const ContactPoint<Dim>& point,

@@ -223,9 +223,8 @@ std::string Outcome::message() const {
     case Failure::too_fast:
       if (loose) {
         s << "it moves at " << speed
-          << " m/s, faster than sound: cracks have cut it from the body, and a load or what it met drives it on; let "
-             "the "
-             "run end before the specimen falls apart (a piece under load: stop at the load's fall).";
+          << " m/s, faster than sound: cracks have cut it from the body, and a load or what it met drives it on; "
+             "let the run end before the specimen falls apart (a piece under load: stop at the load's fall).";
         break;
       }
       s << "it moves at " << speed

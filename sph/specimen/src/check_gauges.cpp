@@ -96,14 +96,11 @@ void check_gauges(const SceneCheck& c) {
       const Place p(gauges, member);
       if (const auto* d = std::get_if<DisplacementGauge>(&gauge->second)) check_displacement(c, p, *d);
       with(p, "notch_opening", [&](const Place& opening) { check_opening(c, opening); });
-      if (const auto* s = std::get_if<StressGauge>(&gauge->second)) {
-        with(p, "of", [&](const Place& of) { check_sites(c, of, {s->of}); });
-      }
-      if (const auto* s = std::get_if<StrainGauge>(&gauge->second)) {
-        with(p, "of", [&](const Place& of) { check_sites(c, of, {s->of}); });
-      }
-      if (const auto* s = std::get_if<RotationGauge>(&gauge->second)) {
-        with(p, "rotation_of", [&](const Place& of) { check_sites(c, of, {s->of}); });
+      const Site* site = site_of(gauge->second);
+      for (const std::string_view key : {"of", "rotation_of"}) {
+        with(p, key, [&](const Place& of) {
+          if (site != nullptr) check_sites(c, of, {*site});
+        });
       }
     }
   });

@@ -214,9 +214,7 @@ void check_sites(Report& report, const Scene& scene, const Arrangement& a) {
       check(name, d->of);
       for (const Site& s : d->relative_to) check(name, s);
     }
-    if (const auto* s = std::get_if<StressGauge>(&gauge)) check(name, s->of);
-    if (const auto* s = std::get_if<StrainGauge>(&gauge)) check(name, s->of);
-    if (const auto* s = std::get_if<RotationGauge>(&gauge)) check(name, s->of);
+    if (const Site* s = site_of(gauge)) check(name, *s);
   }
 }
 

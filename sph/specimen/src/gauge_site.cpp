@@ -2,12 +2,23 @@
 #include "fpz/io/input_error.hpp"
 #include "gauge_kinds.hpp"
 
-namespace fpz::specimen::detail {
+namespace fpz::specimen {
+namespace detail {
 namespace {
 
 constexpr std::array<std::string_view, 5> site_keys = {"group", "point", "radius", "low", "high"};
 
 }  // namespace
+}  // namespace detail
+
+const Site* site_of(const Gauge& gauge) {
+  if (const auto* stress = std::get_if<StressGauge>(&gauge)) return &stress->of;
+  if (const auto* strain = std::get_if<StrainGauge>(&gauge)) return &strain->of;
+  if (const auto* rotation = std::get_if<RotationGauge>(&gauge)) return &rotation->of;
+  return nullptr;
+}
+
+namespace detail {
 
 std::string read_group_name(const InputReader& r, const Place& place, const Scene& scene) {
   const auto name = r.text(place, longest_name);
@@ -90,4 +101,5 @@ std::vector<std::size_t> particles_of(const Site& site, const GaugeBinding& to) 
   return found;
 }
 
-}  // namespace fpz::specimen::detail
+}  // namespace detail
+}  // namespace fpz::specimen

@@ -1,7 +1,8 @@
 // Boundaries: rollers and platens, and how they move.
 #include "scene_reader.hpp"
 
-namespace fpz::specimen::detail {
+namespace fpz::specimen {
+namespace detail {
 namespace {
 
 constexpr std::array<std::string_view, 17> boundary_keys = {
@@ -33,11 +34,7 @@ Boundary read_boundary(const InputReader& r, const Place& place, std::span<const
   Boundary b;
   if (!r.object(place, "\"name\", \"at\", \"direction\", \"width\" and how it is driven")) return b;
   r.known_keys(place, boundary_keys);
-  with_required(r, place, "name", [&](const Place& p) { b.name = r.text(p, longest_name).value_or(""); });
-  for (const Boundary& other : scene.boundaries) {
-    if (!b.name.empty() && other.name == b.name)
-      r.problem(place, "two boundaries with the name " + io::in_quotes(b.name));
-  }
+  b.name = read_name(r, place, scene.boundaries, "boundaries");
   // With particles from a file the boundary may be among them.
   if (!scene.particles || place.value().find("at") != nullptr) {
     Platen platen;
@@ -85,9 +82,9 @@ void read_boundaries(const InputReader& r, const Place& place, std::span<const s
   }
 }
 
-}  // namespace fpz::specimen::detail
+}  // namespace detail
 
-std::vector<fpz::specimen::Platen> fpz::specimen::platens_of(const Boundary& boundary) {
+std::vector<Platen> platens_of(const Boundary& boundary) {
   if (!boundary.platen) return {};
   std::vector<Platen> all = {*boundary.platen};
   for (const Point& at : boundary.also_at) {
@@ -96,3 +93,5 @@ std::vector<fpz::specimen::Platen> fpz::specimen::platens_of(const Boundary& bou
   }
   return all;
 }
+
+}  // namespace fpz::specimen

@@ -38,12 +38,7 @@ Interface read_interface(const InputReader& r, const Place& place, const Scene& 
   Interface f;
   if (!r.object(place, "\"name\", \"material\" and \"line\" or \"bedding\"")) return f;
   r.known_keys(place, interface_keys);
-  with_required(r, place, "name", [&](const Place& p) { f.name = r.text(p, longest_name).value_or(""); });
-  for (const Interface& other : scene.interfaces) {
-    if (!f.name.empty() && other.name == f.name) {
-      r.problem(place, "two interfaces with the name " + io::in_quotes(f.name));
-    }
-  }
+  f.name = read_name(r, place, scene.interfaces, "interfaces");
   (void)r.required(place, "material");
   with(place, "line", [&](const Place& p) { f.line = read_line(r, p); });
   with(place, "bedding", [&](const Place& p) { f.bedding = read_bedding(r, p); });

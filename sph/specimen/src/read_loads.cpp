@@ -88,12 +88,7 @@ SurfaceLoad read_load(const InputReader& r, const Place& place, const Scene& sce
   SurfaceLoad load;
   if (!r.object(place, "\"name\", \"on\", and \"pressure\" or \"traction\"")) return load;
   r.known_keys(place, load_keys);
-  with_required(r, place, "name", [&](const Place& p) { load.name = r.text(p, longest_name).value_or(""); });
-  for (const SurfaceLoad& other : scene.loads) {
-    if (!load.name.empty() && other.name == load.name) {
-      r.problem(place, "two loads with the name " + io::in_quotes(load.name));
-    }
-  }
+  load.name = read_name(r, place, scene.loads, "loads");
   with_required(r, place, "on", [&](const Place& p) {
     if (!p.value().is(JsonValue::Kind::array)) {
       load.on.push_back(read_part(r, p, scene));

@@ -25,12 +25,7 @@ Region read_region(const InputReader& r, const Place& place, const Scene& scene)
   Region region;
   if (!r.object(place, "\"name\", \"material\" and \"shape\"")) return region;
   r.known_keys(place, region_keys);
-  with_required(r, place, "name", [&](const Place& p) { region.name = r.text(p, longest_name).value_or(""); });
-  for (const Region& other : scene.regions) {
-    if (!region.name.empty() && other.name == region.name) {
-      r.problem(place, "two regions with the name " + io::in_quotes(region.name));
-    }
-  }
+  region.name = read_name(r, place, scene.regions, "regions");
   (void)r.required(place, "material");
   // Particles of a file may say themselves which region they are in.
   if (!scene.particles) (void)r.required(place, "shape");

@@ -246,9 +246,8 @@ Schedule schedule_of(const Scene& scene, double time_step) {
 
 std::string warning_of_time_step(const sph::RunSetup<2>& setup, double time_step) {
   constexpr double far_below = 4.0;
-  sph::RunSetup<2> plain = setup;
-  plain.options.courant = std::min(plain.options.courant, 1.0);
-  const double ratio = sph::courant_step(plain) / time_step;
+  const double at_most_one = std::min(1.0, 1.0 / setup.options.courant);
+  const double ratio = at_most_one * sph::courant_step(setup) / time_step;
   if (ratio < far_below) return {};
   std::ostringstream s;
   s.precision(2);

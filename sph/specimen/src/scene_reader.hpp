@@ -74,6 +74,19 @@ template <class Kind, std::size_t N>
   return at == kinds.end() ? nullptr : &*at;
 }
 
+/// "name" of an entry, which no earlier one of its list has; `entries` is what they are ("loads").
+template <class Entry>
+[[nodiscard]] std::string read_name(const InputReader& r, const Place& entry, const std::vector<Entry>& earlier,
+                                    const char* entries) {
+  std::string name;
+  with_required(r, entry, "name", [&](const Place& p) { name = r.text(p, longest_name).value_or(""); });
+  const auto has_it = [&](const Entry& other) { return !name.empty() && other.name == name; };
+  for (auto k = std::count_if(earlier.begin(), earlier.end(), has_it); k > 0; --k) {
+    r.problem(entry, "two " + std::string(entries) + " with the name " + io::in_quotes(name));
+  }
+  return name;
+}
+
 [[nodiscard]] std::optional<bool> boolean(const InputReader& r, const Place& place);
 [[nodiscard]] std::optional<Point> point(const InputReader& r, const Place& place);
 /// A point that is not (0, 0), made a unit vector.

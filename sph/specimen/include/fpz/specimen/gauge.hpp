@@ -64,6 +64,8 @@ struct SumGauge {
 };
 using Gauge =
     std::variant<ForceGauge, DisplacementGauge, OpeningGauge, StressGauge, StrainGauge, RotationGauge, SumGauge>;
+/// The only site of a gauge of stress, strain or rotation; null for others.
+[[nodiscard]] const Site* site_of(const Gauge& gauge);
 
 /// A gauge that knows its particles.
 struct BoundGauge {
