@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "fpz/energy.hpp"
-#include "zone.hpp"
+#include "opening_zone.hpp"
 
 namespace fpz::calibration {
 namespace {
@@ -15,29 +15,6 @@ namespace {
 using Inputs = Eigen::Matrix<double, path_input_count, 1>;
 
 constexpr int at(PathInput p) { return static_cast<int>(p); }
-
-/// Seeds the parameters of the path among `N` derivatives.
-template <class Slope>
-BasicParameters<Slope> seeded_inputs(const Parameters& p) {
-  BasicParameters<Slope> s;
-  s.young_modulus = Slope::seed(p.young_modulus, at(PathInput::young_modulus));
-  s.poisson_ratio = Slope::seed(p.poisson_ratio, at(PathInput::poisson_ratio));
-  s.tensile_strength = Slope::seed(p.tensile_strength, at(PathInput::tensile_strength));
-  s.delta0 = Slope::seed(p.delta0, at(PathInput::delta0));
-  s.normal_stiffness = Slope::seed(p.normal_stiffness, at(PathInput::normal_stiffness));
-  s.cohesion = p.cohesion;
-  s.friction_angle_deg = p.friction_angle_deg;
-  s.dilation_angle_deg = p.dilation_angle_deg;
-  s.shear_stiffness = p.shear_stiffness;
-  s.choices = p.choices;
-  return s;
-}
-
-/// A zone that has just cracked in pure opening.
-template <class Slope, class P>
-CohesiveState<Slope, 1> fresh_zone(const CohesiveLaw<P>& law) {
-  return cracked_at<Slope, 1>(law, Vec<Slope, 1>::Constant(Slope(law.surface.tensile_strength)));
-}
 
 const char* name(Gauge g) { return g == Gauge::cmod ? "CMOD" : "deflection"; }
 

@@ -6,6 +6,7 @@
 
 #include "admissible.hpp"
 #include "fpz/calibration/mid_line.hpp"
+#include "fpz/calibration/monotonic_curve.hpp"
 #include "words.hpp"
 
 namespace fpz::calibration {
@@ -45,8 +46,14 @@ Control control_of(Gauge gauge, const Eigen::VectorXd& nuisance) {
 }
 
 /// Derivatives of a path in the columns of a prediction.
-void write_row(Gauge gauge, const Eigen::VectorXd& path, Eigen::MatrixXd::RowXpr row) {
-  const auto put = [&](int column, PathInput input) { row[column] = path[static_cast<int>(input)]; };
+Prediction prediction_of(Gauge gauge, MonotonicCurve curve, Eigen::Index nuisances) {
+  Prediction out;
+  out.values = std::move(curve.load);
+  if (curve.derivatives.size() == 0) return out;
+  out.jacobian = Eigen::MatrixXd::Zero(out.values.size(), parameter_count + nuisances);
+  const auto put = [&](int column, PathInput input) {
+    out.jacobian.col(column) = curve.derivatives.col(static_cast<int>(input));
+  };
   put(static_cast<int>(Parameter::young_modulus), PathInput::young_modulus);
   put(static_cast<int>(Parameter::poisson_ratio), PathInput::poisson_ratio);
   put(static_cast<int>(Parameter::tensile_strength), PathInput::tensile_strength);
@@ -58,6 +65,7 @@ void write_row(Gauge gauge, const Eigen::VectorXd& path, Eigen::MatrixXd::RowXpr
     put(parameter_count, PathInput::machine_compliance);
     put(parameter_count + 1, PathInput::gauge_offset);
   }
+  return out;
 }
 
 std::string why_unusable(const NotchedSpecimenTest& test, const Parameters& parameters,
@@ -173,16 +181,22 @@ Prediction predict(const NotchedSpecimenTest& test, const Parameters& parameters
                    bool derivatives) {
   if (std::string why = why_unusable(test, parameters, nuisance); !why.empty()) return failed(std::move(why));
   const auto body = test.cache->get(test.specimen, parameters.poisson_ratio, derivatives);
-  MidLine path(*body, parameters, control_of(test.gauge, nuisance), derivatives);
-  Prediction out;
-  out.values.resize(test.readings.size());
-  if (derivatives) out.jacobian = Eigen::MatrixXd::Zero(test.readings.size(), parameter_count + nuisance.size());
+  const Control control = control_of(test.gauge, nuisance);
+  if (std::is_sorted(test.readings.begin(), test.readings.end())) {
+    MonotonicCurve curve = monotonic_curve(*body, parameters, control, test.readings, derivatives);
+    if (curve.failure.empty()) return prediction_of(test.gauge, std::move(curve), nuisance.size());
+  }
+  // Unloading cycles need the history; and where the smooth curve ends, the path says why.
+  MidLine path(*body, parameters, control, derivatives);
+  MonotonicCurve curve;
+  curve.load.resize(test.readings.size());
+  if (derivatives) curve.derivatives.resize(test.readings.size(), path_input_count);
   for (Eigen::Index k = 0; k < test.readings.size(); ++k) {
     if (std::string why = path.advance(test.readings[k]); !why.empty()) return failed(std::move(why));
-    out.values[k] = path.load();
-    if (derivatives) write_row(test.gauge, path.load_derivatives(), out.jacobian.row(k));
+    curve.load[k] = path.load();
+    if (derivatives) curve.derivatives.row(k) = path.load_derivatives().transpose();
   }
-  return out;
+  return prediction_of(test.gauge, std::move(curve), nuisance.size());
 }
 
 FractureCurve fracture_curve(const NotchedSpecimen& specimen, const Parameters& parameters, double end_load,

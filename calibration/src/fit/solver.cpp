@@ -6,7 +6,7 @@
 #include <limits>
 #include <memory>
 
-#include "decompositions.hpp"
+#include "settle.hpp"
 
 namespace fpz::calibration::detail {
 namespace {
@@ -150,17 +150,6 @@ ceres::Solver::Summary solve(const LeastSquares& problem, const SolverRun& run, 
   return summary;
 }
 
-/// Twice the gain in cost that a Gauss-Newton step of the parameters that may move still promises.
-double newton_decrement(const LeastSquares& problem, const Minimum& m, const std::vector<bool>& held) {
-  const Stack stack = gauss_newton_stack(problem, m.values, m.evaluation);
-  std::vector<int> columns;
-  for (int k = 0; k < problem.size(); ++k) {
-    if (!held[static_cast<std::size_t>(k)]) columns.push_back(k);
-  }
-  if (columns.empty()) return 0.0;
-  return squared_projection(stack.jacobian(Eigen::all, columns), stack.residuals, 1e-9);
-}
-
 /// Prediction, cost and gradient at m.z; false when there is no prediction.
 bool look(const LeastSquares& problem, const Caches& caches, Minimum& m) {
   m.values = problem.values(m.z);
@@ -218,16 +207,20 @@ Minimum minimise(const LeastSquares& problem, const Eigen::VectorXd& start, cons
     }
     if (!changed) break;
   }
+  const bool finished = !m.stopped && last.termination_type != ceres::NO_CONVERGENCE;
+  double remaining = finished ? promised_step(problem, m, held) : 0.0;
+  const bool smooth = remaining <= smooth_tolerance;
+  if (!smooth) remaining = settle(problem, held, m);
   for (std::size_t k = 0; k < n; ++k) {
     m.bound[k] = fixed[k] ? 2 : problem.variables[k].side(m.z[static_cast<Eigen::Index>(k)]);
   }
   if (last.termination_type == ceres::NO_CONVERGENCE) {
     m.message = "the limit of " + std::to_string(run.max_iterations) + " iterations was reached";
-  } else if (!m.stopped && newton_decrement(problem, m, held) > 1e-4) {  // 1 % of a standard error
+  } else if (remaining > kink_tolerance) {
     m.message = early_end(caches, last);
   } else {
     m.converged = true;
-    m.message = "converged";
+    m.message = smooth ? "converged" : "converged to a kink of the predictions";
   }
   return m;
 }
