@@ -88,6 +88,7 @@ int check(const Specification& spec) {
   for (const DataSet& d : spec.data) {
     std::cout << "  " << d.name << ": " << d.kind << ", " << d.measured.size() << " points, "
               << (d.role == Role::fit ? "fitted" : "predicted") << "\n";
+    if (!d.file.empty()) std::cout << "    " << d.file << ": " << d.notation << "\n";
   }
   return 0;
 }

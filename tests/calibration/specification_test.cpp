@@ -230,10 +230,78 @@ TEST_F(SpecificationFiles, BadTables) {
   expect("CMOD,P\n0.001,100\n", "has 1 point; a curve needs at least 4");
   expect("CMOD,P\n", "no rows");
   expect("", "no rows");
-  expect("CMOD,P\n0.001,100,3\n", "line 2: 3 cells, the header has 2");
+  expect("CMOD,P\n0.001,100,3\n", "data.csv:2: 3 cells, the header (line 1) has 2");
   expect("CMOD,P\n" + rows, "has no column \"s\"", R"(, "deviation": {"column": "s"})");
   expect("CMOD,P,s\n0.001,100,1\n0.002,200,0\n0.003,300,1\n0.004,400,1\n",
          "data.csv:3: column \"s\": a standard deviation must be > 0", R"(, "deviation": {"column": "s"})");
+}
+
+/// A file as a testing machine writes it, with two load cells and compression negative.
+class MachineExport : public ::testing::Test {
+ protected:
+  MachineExport() {
+    folder_.write(
+        "data.csv",
+        "DEU|1|2|,|.\r\nDatenerfassung:\t\tZeit: 12,5\ts\r\nWeg\tKanal 1 CMOD\tKraft\tKraft\r\nmm\tmm\tkN\tN\r\n"
+        "0,1\t0,001\t-0,1\t-100\r\n0,2\t0,002\t-0,2\t-200\r\n0,3\t0,003\t-0,3\t-300\r\n0,4\t0,004\t-0,25\t-250\r\n");
+    folder_.write("material.json", test::text_of(FPZ_DATA_DIR "/materials/johnstone.json"));
+  }
+
+  [[nodiscard]] static std::string text(const std::string& cmod, const std::string& load,
+                                        const std::string& rest = "") {
+    return R"({"material": "material.json", "fit": ["delta0"], "data": [)" +
+           beam(R"("file": "data.csv", "columns": {"cmod": )" + cmod + R"(, "load": )" + load + "}", rest) + "]}";
+  }
+  [[nodiscard]] Specification read(const std::string& cmod, const std::string& load,
+                                   const std::string& rest = "") const {
+    return parse_specification(text(cmod, load, rest), folder_.path() / "spec.json");
+  }
+  void expect(const std::string& part, const std::string& cmod, const std::string& load,
+              const std::string& rest = "") const {
+    const std::string message = message_of(text(cmod, load, rest), folder_.path() / "spec.json");
+    EXPECT_NE(message.find(part), std::string::npos) << "no \"" << part << "\" in\n" << message;
+  }
+
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(MachineExport, IsReadWithItsOwnUnitsAndATurnedSign) {
+  for (const char* cmod : {R"("Kanal 1 CMOD")", "2", R"({"column": "Kanal 1 CMOD", "unit": "mm"})"}) {
+    for (const char* load : {R"({"column": 3, "scale": -1})", R"({"column": 4, "scale": -1})"}) {
+      const DataSet set = read(cmod, load).data[0];
+      ASSERT_EQ(set.measured.size(), 4);
+      EXPECT_DOUBLE_EQ(set.abscissa[3], 4e-6);
+      EXPECT_DOUBLE_EQ(set.measured[3], 250.0);
+      EXPECT_EQ(set.notation.find("utf-8, 4 columns at each tab, decimal comma, names in line 3"), 0U) << set.notation;
+    }
+  }
+}
+
+TEST_F(MachineExport, IsRefusedWhereItIsOpenWhatIsMeant) {
+  const std::string cmod = R"("Kanal 1 CMOD")";
+  expect("columns 3 and 4 are both called \"Kraft\"", cmod, R"({"column": "Kraft", "scale": -1})");
+  expect("give the column \"scale\": -1", cmod, "3");
+  expect("did you mean \"Kanal 1 CMOD\"?", R"("CMOD")", "3");
+  expect("columns.cmod", "5", "3");
+  expect("must not be zero", cmod, R"({"column": 3, "scale": 0})");
+  expect("\"tabs\" is not known; it must be comma, semicolon, tab, bar or space", cmod, "3",
+         R"(, "separator": "tabs")");
+  expect("which is not known for this quantity", cmod, "1");  // a length in place of a load
+}
+
+TEST_F(MachineExport, AStatedUnitGoesBeforeTheFilesAndIsSaid) {
+  const Specification s = read("2", R"({"column": 3, "unit": "N", "scale": -1000})");
+  EXPECT_DOUBLE_EQ(s.data[0].measured[0], 100.0);
+  const auto said = [](const std::string& w) { return w.find("is in kN according to the file") != std::string::npos; };
+  EXPECT_TRUE(std::any_of(s.warnings.begin(), s.warnings.end(), said));
+}
+
+TEST_F(SpecificationFiles, OptionsOfAFileGoWithAFile) {
+  EXPECT_NE(message_of(with(beam_values("[1e-6, 2e-6, 3e-6, 4e-6]", "[1, 2, 3, 4]", R"(, "decimal": "comma")")))
+                .find("\"decimal\" goes with \"file\""),
+            std::string::npos);
+  EXPECT_EQ(message("CMOD;P\n0,001;1.100,5\n0,002;1.200,5\n0,003;1.300,5\n0,004;1.400,5\n"), "");
+  expect("CMOD;P\n1,001;1,100\n1,002;1,200\n1,003;1,300\n1,004;1,400\n", "data.csv:2: 1,001 can be 1001");
 }
 
 TEST_F(SpecificationFiles, BandsBecomeDeviations) {

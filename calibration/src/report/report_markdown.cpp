@@ -176,7 +176,7 @@ class MarkdownReport {
     const DataSet& set = spec_.data[c.data_set];
     out_ << "### " << set.name << "\n\n";
     if (!set.source.empty()) out_ << "Source: " << set.source << ". ";
-    if (!set.file.empty()) out_ << "File: `" << set.file << "`. ";
+    if (!set.file.empty()) out_ << "File: `" << set.file << "` (" << set.notation << "). ";
     out_ << "Standard deviation: " << set.deviation_words << ".";
     if (set.weight != 1.0) out_ << " Weight: " << digits(set.weight) << '.';
     out_ << "\n";

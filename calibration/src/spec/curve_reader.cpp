@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "fpz/io/csv.hpp"
+#include "fpz/io/csv_options.hpp"
 
 namespace fpz::calibration::detail {
 namespace {
@@ -17,8 +17,8 @@ constexpr int most_points = 100'000;
 constexpr double default_relative_deviation = 0.01;
 constexpr double default_edges_at = 2.0;
 constexpr std::array<std::string_view, 2> list_keys = {"list", "unit"};
-constexpr std::array<std::string_view, 2> plain_column_keys = {"column", "unit"};
-constexpr std::array<std::string_view, 4> band_column_keys = {"low", "high", "unit", "edges_at"};
+constexpr std::array<std::string_view, 3> plain_column_keys = {"column", "unit", "scale"};
+constexpr std::array<std::string_view, 5> band_column_keys = {"low", "high", "unit", "scale", "edges_at"};
 constexpr std::array<std::string_view, 6> deviation_keys = {"value",  "relative", "relative_to_peak",
                                                             "column", "unit",     "known"};
 constexpr std::array<std::string_view, 3> range_keys = {"from", "to", "unit"};
@@ -45,6 +45,7 @@ class CurveReader {
     check_order(raw);
     Curve curve;
     curve.file = file_name_;
+    if (table_) curve.notation = table_->notation;
     if (!good() || !add_deviation(raw[needs_.measured], curve)) return std::nullopt;
     for (RawColumn& column : raw) curve.columns.push_back(std::move(column.values));
     select(curve);
@@ -63,13 +64,21 @@ class CurveReader {
       return {};
     }
     if (file == nullptr) {
-      if (const JsonValue* columns = member("columns")) {
-        c_.problem(Place(set_, *columns), "\"columns\" goes with \"file\"");
-        return {};
+      bool wrong = false;
+      for (const std::string_view key : file_keys()) {
+        const JsonValue* v = member(key);
+        if (v != nullptr) c_.problem(Place(set_, *v), in_quotes(key) + " goes with \"file\"");
+        wrong = wrong || v != nullptr;
       }
-      return from_lists(Place(set_, *values));
+      return wrong ? std::vector<RawColumn>{} : from_lists(Place(set_, *values));
     }
     return from_file(Place(set_, *file));
+  }
+
+  [[nodiscard]] static std::vector<std::string_view> file_keys() {
+    std::vector<std::string_view> keys(io::csv_option_keys.begin(), io::csv_option_keys.end());
+    keys.emplace_back("columns");
+    return keys;
   }
 
   /// A row in warnings.
@@ -144,11 +153,12 @@ class CurveReader {
       return {};
     }
     try {
-      table_ = io::parse_csv(text, shown);
+      table_ = io::parse_csv(text, shown, io::read_csv_options(c_.reader, set_));
     } catch (const io::InputError& e) {
       c_.problem(file, e.what());
       return {};
     }
+    c_.warnings.insert(c_.warnings.end(), table_->remarks.begin(), table_->remarks.end());
     const JsonValue* columns = c_.reader.required(set_, "columns");
     if (columns == nullptr) return {};
     const Place at(set_, *columns);
@@ -166,21 +176,21 @@ class CurveReader {
     return raw.size() == needs_.wanted.size() ? raw : std::vector<RawColumn>{};
   }
 
-  /// A column's name, {"column", "unit"}, or for the measured quantity a band {"low", "high", "unit", "edges_at"}.
+  /// A column's name or number, {"column", "unit", "scale"}, or for the measured quantity a band {"low", "high",
+  /// "unit", "scale", "edges_at"}.
   RawColumn read_entry(const Place& at, Quantity quantity, bool measured) {
     RawColumn raw;
     const JsonValue& v = at.value();
-    if (v.is(Kind::string)) {
-      raw.values = column(at, 1.0);
+    if (!v.is(Kind::object)) {
+      raw.values = column(at, at, quantity);
       return raw;
     }
     if (!c_.reader.object(at, "\"column\" and \"unit\"")) return raw;
     const bool band = measured && (v.find("low") != nullptr || v.find("high") != nullptr);
     c_.reader.known_keys(at, band ? std::span<const std::string_view>(band_column_keys) : plain_column_keys);
-    const auto unit = read_unit(c_, at, quantity);
     const auto named = [&](std::string_view key) -> Eigen::VectorXd {
       const JsonValue* name = c_.reader.required(at, key);
-      return name != nullptr && unit ? column(Place(at, *name), unit->factor) : Eigen::VectorXd();
+      return name != nullptr ? column(Place(at, *name), at, quantity) : Eigen::VectorXd();
     };
     if (!band) {
       raw.values = named("column");
@@ -202,20 +212,72 @@ class CurveReader {
     return raw;
   }
 
-  Eigen::VectorXd column(const Place& at, double factor) {
-    const auto name = c_.reader.text(at, longest_text);
-    if (!name) return {};
-    const std::vector<double>* cells = table_->find(*name);
-    if (cells == nullptr) {
-      std::vector<std::string_view> names(table_->names.begin(), table_->names.end());
-      c_.problem(at, table_->origin + " has no column " + in_quotes(*name) + io::suggestion(*name, names));
-      return {};
+  /// The place in the table of the column whose name or number stands at `at`.
+  std::optional<std::size_t> index_of(const Place& at) {
+    const std::size_t count = table_->columns.size();
+    if (at.value().is(Kind::number)) {
+      const auto number = c_.reader.integer(at, 1, static_cast<int>(count));
+      if (!number) return std::nullopt;
+      return static_cast<std::size_t>(*number) - 1;
     }
-    Eigen::VectorXd x(static_cast<Eigen::Index>(cells->size()));
-    for (std::size_t k = 0; k < cells->size(); ++k) {
-      x[static_cast<Eigen::Index>(k)] = (*cells)[k] * factor;
-      if (std::isfinite((*cells)[k])) continue;
-      row_problem(k, *name, "the cell is not a finite number");
+    const auto name = c_.reader.text(at, longest_text);
+    if (!name) return std::nullopt;
+    try {
+      const std::optional<std::size_t> index = table_->index(*name);
+      if (!index) c_.problem(at, table_->no_column(*name));
+      return index;
+    } catch (const io::InputError& e) {
+      c_.problem(at, e.what());
+      return std::nullopt;
+    }
+  }
+
+  /// What turns the numbers of a column into SI: its unit, from `entry` or else from the file, times "scale".
+  std::optional<double> factor_of(std::size_t column, const Place& entry, Quantity quantity) {
+    const JsonValue& v = entry.value();
+    const bool stated = v.is(Kind::object) && v.find("unit") != nullptr;
+    std::optional<Unit> unit = read_unit(c_, entry, quantity);
+    const std::string& own = table_->units[column];
+    const std::optional<Unit> in_file = io::find_unit(quantity, own);
+    const std::string who = table_->origin + ": column " + name_of(column);
+    if (stated && unit && !own.empty() && (!in_file || in_file->factor != unit->factor)) {
+      c_.warn(entry, who + " is in " + own + " according to the file; it is taken to be in " + std::string(unit->name) +
+                         " as stated here");
+    }
+    if (!stated && !own.empty()) {
+      if (!in_file) {
+        std::vector<std::string_view> names;
+        for (const Unit& u : units(quantity)) names.push_back(u.name);
+        c_.problem(entry, who + " is in " + in_quotes(own) + ", which is not known for this quantity" +
+                              io::suggestion(own, names));
+        return std::nullopt;
+      }
+      unit = in_file;
+    }
+    if (!unit) return std::nullopt;
+    const JsonValue* scale = v.is(Kind::object) ? v.find("scale") : nullptr;
+    if (scale == nullptr) return unit->factor;
+    const auto x = c_.reader.number(Place(entry, *scale));
+    if (x && *x == 0.0) c_.problem(Place(entry, *scale), "must not be zero; -1 turns the sign");
+    if (!x || *x == 0.0) return std::nullopt;
+    return *x * unit->factor;
+  }
+
+  [[nodiscard]] std::string name_of(std::size_t column) const {
+    const std::string& name = table_->names[column];
+    return name.empty() ? std::to_string(column + 1) : in_quotes(name);
+  }
+
+  Eigen::VectorXd column(const Place& at, const Place& entry, Quantity quantity) {
+    const std::optional<std::size_t> index = index_of(at);
+    const std::optional<double> factor = index ? factor_of(*index, entry, quantity) : std::nullopt;
+    if (!factor) return {};
+    const std::vector<double>& cells = table_->columns[*index];
+    Eigen::VectorXd x(static_cast<Eigen::Index>(cells.size()));
+    for (std::size_t k = 0; k < cells.size(); ++k) {
+      x[static_cast<Eigen::Index>(k)] = cells[k] * *factor;
+      if (std::isfinite(cells[k])) continue;
+      row_problem(k, table_->names[*index], "the cell is not a finite number");
       return {};
     }
     return x;
@@ -237,7 +299,8 @@ class CurveReader {
       if (x[k] >= x[k - 1]) continue;
       row_problem(row, name,
                   "is below the value of the row before; the rows must be sorted by " + name +
-                      " (for unloading cycles, in the order of time, say \"cyclic\": true)");
+                      " (for unloading cycles, in the order of time, say \"cyclic\": true; where it falls all along, "
+                      "give the column \"scale\": -1)");
       return;
     }
   }
@@ -273,11 +336,9 @@ class CurveReader {
       c_.problem(at, "\"column\" goes with \"file\"");
       return std::nullopt;
     }
-    const auto unit = read_unit(c_, at, needs_.wanted[needs_.measured].quantity);
     const Place name(at, *at.value().find("column"));
-    if (!unit) return std::nullopt;
     Deviation d;
-    d.values = column(name, unit->factor);
+    d.values = column(name, at, needs_.wanted[needs_.measured].quantity);
     d.words = "column " + in_quotes(name.value().text);
     if (const JsonValue* known = at.value().find("known")) d.known = read_boolean(c_, Place(at, *known)).value_or(true);
     for (Eigen::Index k = 0; k < d.values.size(); ++k) {

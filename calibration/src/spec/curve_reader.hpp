@@ -23,6 +23,7 @@ struct Wanted {
 /// Columns in the order in which they were wanted, SI.
 struct Curve {
   std::string file;                      ///< as given; empty for lists in the specification
+  std::string notation;                  ///< how it was read, as in io::Table
   std::vector<Eigen::VectorXd> columns;  ///< all rows: where the path counts, rows that are not used belong to it
   std::vector<Eigen::Index> used;        ///< rows that "range" and "thin" leave
   Eigen::VectorXd deviation;             ///< of the measured column, all rows
@@ -39,8 +40,9 @@ struct CurveNeeds {
 };
 
 /// Keys of a data set that read_curve looks at.
-inline constexpr std::array<std::string_view, 7> curve_keys = {"file",  "columns", "values", "deviation",
-                                                               "range", "thin",    "cyclic"};
+inline constexpr std::array<std::string_view, 12> curve_keys = {"file",    "columns",   "values", "deviation",
+                                                                "range",   "thin",      "cyclic", "separator",
+                                                                "decimal", "skip_rows", "rows",   "encoding"};
 
 /// Reads them from the data set `set`; other files are looked up in `folder`. Nothing when there is a problem.
 [[nodiscard]] std::optional<Curve> read_curve(const Context& c, const std::filesystem::path& folder, const Place& set,

@@ -49,6 +49,7 @@ void read_weight(const Context& c, const Place& at, DataSet& out) {
 
 void take_curve(const Curve& curve, std::size_t abscissa, std::size_t measured, DataSet& out) {
   out.file = curve.file;
+  out.notation = curve.notation;
   out.abscissa = curve.columns[abscissa](curve.used);
   out.measured = curve.columns[measured](curve.used);
   out.deviation = curve.deviation(curve.used);

@@ -188,7 +188,11 @@ void read_notched(const SetContext& s, const Place& set, SpecimenShape shape, Da
   if (!curve || c.reader.problems().size() != before) return;
   take_curve(*curve, 0, 1, out);
   const double largest = out.measured.maxCoeff();
-  if (!(largest > 0.0)) return c.problem(set, "no load is positive; loads that bend the specimen are positive");
+  if (!(largest > 0.0)) {
+    return c.problem(set,
+                     "no load is positive; loads that bend the specimen are positive: if the machine counts them "
+                     "negative, give the column \"scale\": -1");
+  }
   judge_load(s, set, test.specimen, largest);
   judge_reading(s, set, wanted[0].name, out.abscissa.cwiseAbs().maxCoeff());
   test.readings = out.abscissa;

@@ -11,11 +11,9 @@ constexpr std::size_t longest_name = 200;
 std::optional<Unit> unit_named(const Context& c, const Place& at, Quantity quantity) {
   const auto name = c.reader.text(at, longest_name);
   if (!name) return std::nullopt;
+  if (const std::optional<Unit> known = io::find_unit(quantity, *name)) return known;
   std::vector<std::string_view> names;
-  for (const Unit& unit : units(quantity)) {
-    if (unit.name == *name) return unit;
-    names.push_back(unit.name);
-  }
+  for (const Unit& unit : units(quantity)) names.push_back(unit.name);
   c.problem(at, "unknown unit " + io::in_quotes(*name) + io::suggestion(*name, names));
   return std::nullopt;
 }

@@ -4,7 +4,7 @@
 #include <limits>
 #include <set>
 
-#include "fpz/io/csv.hpp"
+#include "fpz/io/csv_options.hpp"
 #include "fpz/specimen/specimen.hpp"
 #include "fpz/specimen/sweep.hpp"
 #include "scene_reader.hpp"
@@ -127,7 +127,9 @@ std::string read_column(const InputReader& r, const Place& place) {
 SweepReference read_reference(const InputReader& r, const Place& place) {
   SweepReference reference;
   if (!r.object(place, "\"name\", \"file\", \"x\" and \"y\"")) return reference;
-  r.known_keys(place, reference_keys);
+  std::vector<std::string_view> keys(reference_keys.begin(), reference_keys.end());
+  keys.insert(keys.end(), io::csv_option_keys.begin(), io::csv_option_keys.end());
+  r.known_keys(place, keys);
   with_required(r, place, "name", [&](const Place& p) { reference.name = read_label(r, p); });
   with(place, "points", [&](const Place& p) { reference.points = boolean(r, p).value_or(false); });
   std::string x;
@@ -140,7 +142,8 @@ SweepReference read_reference(const InputReader& r, const Place& place) {
     const auto name = r.text(p, 10'000);
     if (!name) return;
     try {
-      const io::Table t = io::read_csv((fs::path(r.file()).parent_path() / *name).lexically_normal());
+      const io::Table t =
+          io::read_csv((fs::path(r.file()).parent_path() / *name).lexically_normal(), io::read_csv_options(r, place));
       const auto &xs = t.at(x), &ys = t.at(reference.y);
       for (std::size_t k = 0; k < t.rows(); ++k) reference.values.emplace_back(xs[k], ys[k]);
     } catch (const io::InputError& e) {

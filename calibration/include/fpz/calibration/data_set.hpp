@@ -83,9 +83,10 @@ template <class Test>
 /// What all kinds have in common, and the test itself.
 struct DataSet {
   std::string name;
-  std::string kind;    ///< as in the specification
-  std::string source;  ///< where the values come from
-  std::string file;    ///< as the specification names it; empty for values that stand in the specification
+  std::string kind;      ///< as in the specification
+  std::string source;    ///< where the values come from
+  std::string file;      ///< as the specification names it; empty for values that stand in the specification
+  std::string notation;  ///< how the file was read, in words
   Role role = Role::fit;
 
   Axis abscissa_axis;

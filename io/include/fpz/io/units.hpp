@@ -22,10 +22,20 @@ struct Unit {
 /// that none has.
 [[nodiscard]] Quantity quantity_of(std::string_view si_unit);
 
-/// All units known for a quantity, SI first.
+/// The units of a quantity that messages offer, SI first.
 [[nodiscard]] const std::vector<Unit>& units(Quantity q);
 
-/// Factor of the named unit; nothing when the quantity has no such unit.
+/// The named unit, one of units() or a further one (psi, lbf, ...), in any of its spellings: N/mm^2, µm, MPa m^0.5,
+/// MPa*sqrt(m), MPa√m, MN/m^1.5. Nothing when the quantity has no such unit.
+[[nodiscard]] std::optional<Unit> find_unit(Quantity q, std::string_view name);
+
+/// Its factor.
 [[nodiscard]] std::optional<double> unit_factor(Quantity q, std::string_view name);
+
+/// Is it a unit of some quantity?
+[[nodiscard]] bool is_unit(std::string_view name);
+
+/// Is it one in which the number is the same as in SI (degrees for angles), seconds included?
+[[nodiscard]] bool is_si_unit(std::string_view name);
 
 }  // namespace fpz::io

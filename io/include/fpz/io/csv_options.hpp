@@ -1,0 +1,19 @@
+// What a JSON file says of a table that it names: keys beside the file's name.
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "fpz/io/csv.hpp"
+#include "fpz/io/input_reader.hpp"
+
+namespace fpz::io {
+
+inline constexpr std::array<std::string_view, 5> csv_option_keys = {"separator", "decimal", "skip_rows", "rows",
+                                                                    "encoding"};
+
+/// Reads those of them that the object at `place` has; what is wrong is a problem. Separators and decimal marks may be
+/// words or the characters themselves.
+[[nodiscard]] CsvOptions read_csv_options(const InputReader& reader, const Place& place);
+
+}  // namespace fpz::io
