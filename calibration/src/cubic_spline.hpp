@@ -54,7 +54,8 @@ class CubicSpline {
     const T h = x_[k + 1] - x_[k];
     const T s = (x - x_[k]) / h;
     const T r = 1.0 - s;
-    return 6.0 * s * r * (y_[k + 1] - y_[k]) / h + r * (1.0 - 3.0 * s) * slope_[k] + s * (3.0 * s - 2.0) * slope_[k + 1];
+    return 6.0 * s * r * (y_[k + 1] - y_[k]) / h + r * (1.0 - 3.0 * s) * slope_[k] +
+           s * (3.0 * s - 2.0) * slope_[k + 1];
   }
 
  private:

@@ -102,7 +102,6 @@ class TipPath {
     return true;
   }
 
-
  private:
   /// Gauge per load with the crack closed.
   [[nodiscard]] Number compliance() const {
@@ -201,8 +200,7 @@ class TipPath {
     const Eigen::Index rows = hold.notch_opening ? m : m + 1;
     right.col(at(PathInput::young_modulus)).head(rows) = -body_.stiffness.topLeftCorner(rows, m) * state_.jump;
     right.col(at(PathInput::poisson_ratio)).head(rows) =
-        d_nu_->load.head(rows) * state_.load -
-        young_modulus_ * (d_nu_->stiffness.topLeftCorner(rows, m) * state_.jump);
+        d_nu_->load.head(rows) * state_.load - young_modulus_ * (d_nu_->stiffness.topLeftCorner(rows, m) * state_.jump);
     if (hold.notch_opening) {
       right.row(m) = -hold.notch_opening->grad.transpose();
     } else {
@@ -259,55 +257,127 @@ class TipPath {
   Status law_status_ = Status::ok;
 };
 
-double reading_at(const CurvePoint& p, const Control& control) {
-  return p.gauge.val + control.offset + control.machine_compliance * p.load.val;
+/// What the toe takes up of the reading, and its derivatives, when Q is the largest load so far; below zero load it
+/// goes on as a spring.
+struct Toe {
+  double reading = 0.0;
+  double per_load = 0.0;
+  double per_toe = 0.0;
+  double per_toe_load = 0.0;
+};
+
+Toe toe_at(const Control& c, double largest) {
+  if (c.toe_load == 0.0) return {};
+  const double x = largest / c.toe_load;
+  if (x < 0.0) return {c.toe * x, c.toe / c.toe_load, x, -c.toe * x / c.toe_load};
+  const double left = std::exp(-x);
+  return {c.toe * (1.0 - left), c.toe * left / c.toe_load, 1.0 - left, -c.toe * left * x / c.toe_load};
 }
 
+double reading_at(const CurvePoint& p, const Control& control, double largest) {
+  return p.gauge.val + control.offset + control.machine_compliance * p.load.val + toe_at(control, largest).reading;
+}
+
+/// Points of the curve with readings that grow, and the last reading.
+struct PointList {
+  std::vector<CurvePoint> points;
+  double last = 0.0;
+};
+
 /// The points up to and a little beyond a reading, as long as gauge and reading grow.
-std::vector<CurvePoint> points_up_to(TipPath& path, const Control& control, double reading) {
+PointList points_up_to(TipPath& path, const Control& control, double reading) {
   constexpr std::size_t beyond = 2;  // more points, for the curvature at the end
   constexpr std::size_t most = 5000;
-  std::vector<CurvePoint> out;
+  PointList out;
+  double largest = 0.0;
   std::size_t after = 0;
   for (std::size_t k = 0; after < beyond && k < most; ++k) {
     if (k == path.points().size() && !path.advance()) break;
     const CurvePoint& p = path.points()[k];
-    const double now = reading_at(p, control);
-    if (!out.empty() && !(p.gauge > out.back().gauge && now > reading_at(out.back(), control))) break;
-    out.push_back(p);
+    largest = std::max(largest, p.load.val);
+    const double now = reading_at(p, control, largest);
+    if (!out.points.empty() && !(p.gauge > out.points.back().gauge && now > out.last)) break;
+    out.points.push_back(p);
+    out.last = now;
     if (now >= reading) ++after;
   }
   return out;
 }
 
-/// The gauge at a reading: gauge + machine_compliance P(gauge) = reading - offset, by Newton's iteration in a bracket.
-double gauge_at(const CubicSpline<Number>& curve, const Control& control, double reading, double largest) {
-  const double wanted = reading - control.offset;
-  if (control.machine_compliance == 0.0) return wanted;
-  double low = std::min(0.0, wanted);
-  double high = largest;
-  double g = 0.5 * (low + high);
-  for (int k = 0; k < 200 && high - low > 1e-16 * std::abs(wanted); ++k) {
-    const double miss = g + control.machine_compliance * curve.at(g).val - wanted;
-    (miss > 0.0 ? high : low) = g;
-    const double next = g - miss / (1.0 + control.machine_compliance * curve.slope_at(g).val);
-    const bool inside = next > low && next < high;
-    if (inside && std::abs(next - g) <= 1e-15 * std::abs(wanted)) return next;
-    g = inside ? next : 0.5 * (low + high);
+/// The curve as the machine records it.
+class RecordedCurve {
+ public:
+  RecordedCurve(const std::vector<CurvePoint>& points, const Number& first_slope, const Control& control)
+      : control_(control), curve_(column(points, &CurvePoint::gauge), column(points, &CurvePoint::load), first_slope) {
+    last_ = points.back().gauge.val;
+    const auto top = std::max_element(points.begin(), points.end(),
+                                      [](const CurvePoint& a, const CurvePoint& b) { return a.load < b.load; });
+    if (top == points.begin() || top + 1 == points.end()) return;
+    double low = (top - 1)->gauge.val;
+    double high = (top + 1)->gauge.val;
+    for (int k = 0; k < 60; ++k) {
+      const double middle = 0.5 * (low + high);
+      (curve_.slope_at(middle).val > 0.0 ? low : high) = middle;
+    }
+    peak_ = low;
+    peak_load_ = curve_.at(low);
   }
-  return g;
-}
 
-/// Load at a reading; derivatives along gauge = reading - offset - machine_compliance P.
-Number load_at(const CubicSpline<Number>& curve, const Control& control, double reading, double largest) {
-  const double gauge = gauge_at(curve, control, reading, largest);
-  Number p = curve.at(gauge);
-  const double slope = curve.slope_at(gauge).val;
-  p.grad[at(PathInput::gauge_offset)] -= slope;
-  p.grad[at(PathInput::machine_compliance)] -= slope * p.val;
-  p.grad /= 1.0 + control.machine_compliance * slope;
-  return p;
-}
+  /// Load at a reading and its derivatives. Between gauge and reading stands
+  /// gauge = reading - offset - machine_compliance P - toe(Q).
+  [[nodiscard]] double load_at(double reading, Eigen::MatrixXd::RowXpr* derivatives) const {
+    const double gauge = gauge_at(reading);
+    const Number p = curve_.at(gauge);
+    if (derivatives == nullptr) return p.val;
+    const double slope = curve_.slope_at(gauge).val;
+    const bool rising = gauge < peak_;
+    const Toe toe = toe_at(control_, rising ? p.val : peak_load_.val);
+    Eigen::Matrix<double, curve_input_count, 1> moved = Eigen::Matrix<double, curve_input_count, 1>::Zero();
+    moved[at(PathInput::gauge_offset)] = 1.0;
+    moved[at(PathInput::machine_compliance)] = p.val;
+    moved[toe_column] = toe.per_toe;
+    moved[toe_load_column] = toe.per_toe_load;
+    if (!rising) moved.head<path_input_count>() += toe.per_load * peak_load_.grad;
+    Eigen::Matrix<double, curve_input_count, 1> d = -slope * moved;
+    d.head<path_input_count>() += p.grad;
+    *derivatives = d.transpose() / (1.0 + (control_.machine_compliance + (rising ? toe.per_load : 0.0)) * slope);
+    return p.val;
+  }
+
+ private:
+  static std::vector<Number> column(const std::vector<CurvePoint>& points, Number CurvePoint::*member) {
+    std::vector<Number> out;
+    for (const CurvePoint& p : points) out.push_back(p.*member);
+    return out;
+  }
+
+  /// By Newton's iteration in a bracket; the reading grows with the gauge.
+  [[nodiscard]] double gauge_at(double reading) const {
+    const double wanted = reading - control_.offset;
+    if (control_.machine_compliance == 0.0 && control_.toe_load == 0.0) return wanted;
+    double low = std::min(0.0, wanted);
+    double high = last_;
+    double g = 0.5 * (low + high);
+    for (int k = 0; k < 200 && high - low > 1e-16 * std::abs(wanted); ++k) {
+      const double load = curve_.at(g).val;
+      const Toe toe = toe_at(control_, g < peak_ ? load : peak_load_.val);
+      const double miss = g + control_.machine_compliance * load + toe.reading - wanted;
+      (miss > 0.0 ? high : low) = g;
+      const double softer = control_.machine_compliance + (g < peak_ ? toe.per_load : 0.0);
+      const double next = g - miss / (1.0 + softer * curve_.slope_at(g).val);
+      const bool inside = next > low && next < high;
+      if (inside && std::abs(next - g) <= 1e-15 * std::abs(wanted)) return next;
+      g = inside ? next : 0.5 * (low + high);
+    }
+    return g;
+  }
+
+  Control control_;
+  CubicSpline<Number> curve_;
+  double last_ = 0.0;                                      ///< gauge of the last point
+  double peak_ = std::numeric_limits<double>::infinity();  ///< gauge at the largest load; infinite where it still rises
+  Number peak_load_;
+};
 
 }  // namespace
 
@@ -315,24 +385,24 @@ MonotonicCurve monotonic_curve(const Condensation& condensation, const Parameter
                                const Eigen::VectorXd& readings, bool derivatives) {
   MonotonicCurve out;
   TipPath path(condensation, parameters, control.gauge, derivatives);
-  const double last = readings.maxCoeff();
-  const std::vector<CurvePoint> points = points_up_to(path, control, last);
-  if (!path.starts_at_notch() || points.size() < 2 || reading_at(points.back(), control) < last) {
-    out.failure = "no monotonic curve up to this reading";
+  const double wanted = readings.maxCoeff();
+  const auto [points, last] = points_up_to(path, control, wanted);
+  if (!path.starts_at_notch() || points.size() < 2 || last < wanted) {
+    std::ostringstream text;
+    text << "the curve under growing readings ends at " << last << " m, before the reading of " << wanted << " m";
+    out.failure = text.str();
     return out;
   }
-  std::vector<Number> gauge, load;
-  for (const CurvePoint& p : points) {
-    gauge.push_back(p.gauge);
-    load.push_back(p.load);
-  }
-  const CubicSpline<Number> curve(std::move(gauge), std::move(load), path.first_slope());
+  const RecordedCurve curve(points, path.first_slope(), control);
   out.load.resize(readings.size());
-  if (derivatives) out.derivatives.resize(readings.size(), path_input_count);
+  if (derivatives) out.derivatives.resize(readings.size(), curve_input_count);
   for (Eigen::Index k = 0; k < readings.size(); ++k) {
-    const Number p = load_at(curve, control, readings[k], points.back().gauge.val);
-    out.load[k] = p.val;
-    if (derivatives) out.derivatives.row(k) = p.grad.transpose();
+    if (derivatives) {
+      Eigen::MatrixXd::RowXpr row = out.derivatives.row(k);
+      out.load[k] = curve.load_at(readings[k], &row);
+    } else {
+      out.load[k] = curve.load_at(readings[k], nullptr);
+    }
   }
   return out;
 }

@@ -42,7 +42,7 @@ void check_mesh(const MeshDensity& mesh, Checker& check) {
 
 Control control_of(Gauge gauge, const Eigen::VectorXd& nuisance) {
   if (gauge == Gauge::cmod) return {gauge, nuisance[0], 0.0};
-  return {gauge, nuisance[1], nuisance[0]};
+  return {gauge, nuisance[1], nuisance[0], nuisance[2], nuisance[3]};
 }
 
 /// Derivatives of a path in the columns of a prediction.
@@ -64,6 +64,10 @@ Prediction prediction_of(Gauge gauge, MonotonicCurve curve, Eigen::Index nuisanc
   } else {
     put(parameter_count, PathInput::machine_compliance);
     put(parameter_count + 1, PathInput::gauge_offset);
+    if (curve.derivatives.cols() == curve_input_count) {
+      out.jacobian.col(parameter_count + 2) = curve.derivatives.col(toe_column);
+      out.jacobian.col(parameter_count + 3) = curve.derivatives.col(toe_load_column);
+    }
   }
   return out;
 }
@@ -80,11 +84,15 @@ std::string why_unusable(const NotchedSpecimenTest& test, const Parameters& para
   }
   for (std::size_t k = 0; k < info.size(); ++k) {
     const double value = nuisance[static_cast<Eigen::Index>(k)];
-    const bool compliance = info[k].name == "machine_compliance";
-    if (!std::isfinite(value) || (compliance && value < 0.0)) {
+    if (!std::isfinite(value) || (!info[k].any_sign && value < 0.0)) {
       return std::string(info[k].name) + " = " + Checker::text(value) + ": must be finite" +
-             (compliance ? " and >= 0" : "");
+             (info[k].any_sign ? "" : " and >= 0");
     }
+  }
+  const Control control = control_of(test.gauge, nuisance);
+  if (control.toe > 0.0 && control.toe_load == 0.0) return "toe_load = 0: must be > 0 where there is a toe";
+  if (control.toe_load > 0.0 && !std::is_sorted(test.readings.begin(), test.readings.end())) {
+    return "a toe is not followed through unloading cycles: subtract it, or use the readings before the first one";
   }
   return {};
 }
@@ -170,9 +178,11 @@ std::shared_ptr<const Condensation> CondensationCache::get(const NotchedSpecimen
 }
 
 std::span<const NuisanceInfo> nuisances(Gauge gauge) {
-  static constexpr std::array<NuisanceInfo, 1> cmod = {{{"cmod_offset", "CMOD_0", "m"}}};
-  static constexpr std::array<NuisanceInfo, 2> deflection = {
-      {{"machine_compliance", "C_m", "m/N"}, {"deflection_offset", "d_0", "m"}}};
+  static constexpr std::array<NuisanceInfo, 1> cmod = {{{"cmod_offset", "CMOD_0", "m", true}}};
+  static constexpr std::array<NuisanceInfo, 4> deflection = {{{"machine_compliance", "C_m", "m/N", false},
+                                                              {"deflection_offset", "d_0", "m", true},
+                                                              {"toe", "d_toe", "m", false},
+                                                              {"toe_load", "P_toe", "N", false}}};
   if (gauge == Gauge::cmod) return cmod;
   return deflection;
 }
@@ -185,6 +195,7 @@ Prediction predict(const NotchedSpecimenTest& test, const Parameters& parameters
   if (std::is_sorted(test.readings.begin(), test.readings.end())) {
     MonotonicCurve curve = monotonic_curve(*body, parameters, control, test.readings, derivatives);
     if (curve.failure.empty()) return prediction_of(test.gauge, std::move(curve), nuisance.size());
+    if (control.toe_load > 0.0) return failed(std::move(curve.failure));
   }
   // Unloading cycles need the history; and where the smooth curve ends, the path says why.
   MidLine path(*body, parameters, control, derivatives);

@@ -346,12 +346,16 @@ void expect_derivatives(const NotchedSpecimenTest& t, const Eigen::VectorXd& nui
     });
   }
   for (Eigen::Index k = 0; k < nuisance.size(); ++k) {
-    const bool length = nuisances(t.gauge)[static_cast<std::size_t>(k)].unit == "m";
-    compare(parameter_count + k, length ? 2e-10 : 1e-12, [&](double h) {
-      Eigen::VectorXd moved = nuisance;
-      moved[k] += h;
-      return predict(t, p, moved, false);
-    });
+    const std::string_view unit = nuisances(t.gauge)[static_cast<std::size_t>(k)].unit;
+    compare(parameter_count + k,
+            unit == "m"   ? 2e-10
+            : unit == "N" ? 0.05
+                          : 1e-12,
+            [&](double h) {
+              Eigen::VectorXd moved = nuisance;
+              moved[k] += h;
+              return predict(t, p, moved, false);
+            });
   }
 }
 
@@ -369,7 +373,7 @@ TEST(NotchedSpecimen, DerivativesAgainstCmod) {
 
 TEST(NotchedSpecimen, DerivativesAgainstDeflections) {
   const Eigen::VectorXd deflection = (Eigen::VectorXd(7) << 1e-6, 1e-5, 1.8e-5, 2.5e-5, 3.5e-5, 6e-5, 2e-4).finished();
-  const Eigen::VectorXd nuisance = Eigen::Vector2d(1.5e-9, 4e-7);
+  const Eigen::VectorXd nuisance = Eigen::Vector4d(1.5e-9, 4e-7, 3e-6, 300.0);
   NotchedSpecimen s = coarse(beam());
   s.roller_width = 4e-3;
   for (const Gauge gauge : {Gauge::deflection_mid_depth, Gauge::deflection_load_point})
@@ -393,7 +397,7 @@ TEST(NotchedSpecimen, NuisancesShiftTheReading) {
   ASSERT_TRUE(base.ok()) << base.failure;
   const Eigen::VectorXd readings = (gauge + 2e-9 * base.values).array() + 3e-6;
   const Prediction moved =
-      predict(test_of(beam(), Gauge::deflection_mid_depth, readings), p, Eigen::Vector2d(2e-9, 3e-6), false);
+      predict(test_of(beam(), Gauge::deflection_mid_depth, readings), p, Eigen::Vector4d(2e-9, 3e-6, 0.0, 0.0), false);
   ASSERT_TRUE(moved.ok()) << moved.failure;
   EXPECT_LE((moved.values - base.values).cwiseAbs().maxCoeff(), 1e-8 * base.values.maxCoeff());
 }

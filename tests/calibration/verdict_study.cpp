@@ -20,9 +20,7 @@ class Random {
   double uniform() { return static_cast<double>(generator_() >> 11) * 0x1.0p-53; }
   double between(double a, double b) { return a + (b - a) * uniform(); }
   double spread(double a, double b) { return a * std::pow(b / a, uniform()); }  ///< evenly in the logarithm
-  double normal() {
-    return std::sqrt(-2.0 * std::log(1.0 - uniform())) * std::cos(2.0 * std::numbers::pi * uniform());
-  }
+  double normal() { return std::sqrt(-2.0 * std::log(1.0 - uniform())) * std::cos(2.0 * std::numbers::pi * uniform()); }
 
  private:
   std::mt19937_64 generator_;

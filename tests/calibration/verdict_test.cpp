@@ -8,8 +8,8 @@
 namespace fpz::calibration {
 namespace {
 
-/// A curve of 20 smooth points, two of them on the rise. The fit must be usable and near 49.5 GPa, 2.38 MPa and 17.5 um,
-/// where eight starts of a solver that stopped at kinks of the prediction had ended.
+/// A curve of 20 smooth points, two of them on the rise. The fit must be usable and near 49.5 GPa, 2.38 MPa and 17.5
+/// um, where eight starts of a solver that stopped at kinks of the prediction had ended.
 TEST(Verdict, SmoothCurveOfTwentyPointsIsUsable) {
   const Calibration c = calibrate(read_specification(FPZ_DATA_DIR "/calibration/smooth_twenty_points.json"));
   EXPECT_TRUE(c.result.usable()) << c.result.message;

@@ -2,9 +2,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 
 #include "data_set_reader.hpp"
 #include "fpz/calibration/notched_specimen.hpp"
+#include "fpz/calibration/rise.hpp"
 #include "set_keys.hpp"
 
 namespace fpz::calibration::detail {
@@ -26,7 +28,7 @@ constexpr std::array<std::string_view, 8> beam_keys = {"unit",  "depth",  "thick
                                                        "notch", "length", "roller_width", "clip_gauge_distance"};
 constexpr std::array<std::string_view, 7> disc_keys = {"unit",  "radius",       "thickness",          "span",
                                                        "notch", "roller_width", "clip_gauge_distance"};
-constexpr std::array<std::string_view, 5> nuisance_keys = {"start", "unit", "lower", "upper", "prior"};
+constexpr std::array<std::string_view, 6> nuisance_keys = {"value", "start", "unit", "lower", "upper", "prior"};
 constexpr std::array<std::string_view, 2> prior_keys = {"mean", "deviation"};
 constexpr std::array<std::string_view, 2> slope_keys = {"from", "to"};
 
@@ -88,28 +90,48 @@ void judge_reading(const SetContext& s, const Place& set, std::string_view gauge
   s.c.judge(at, "the largest " + std::string(gauge), {largest, largest / unit.factor, unit.name}, typical::opening);
 }
 
-/// One nuisance parameter; `scale` is a typical size of it, for default bounds.
-void read_nuisance(const Context& c, const Place& at, const NuisanceInfo& which, double scale, DataSet& out) {
-  if (!c.reader.object(at, "\"start\", \"lower\", \"upper\" or \"prior\"")) return;
-  c.reader.known_keys(at, nuisance_keys);
+/// A nuisance parameter as it is without any statement: start and bounds from the readings at the peak (m, N).
+FitParameter usual_nuisance(const NuisanceInfo& which, const std::string& set, double reading, double load) {
   FitParameter p;
-  p.name = out.name + '.' + std::string(which.name);
+  p.name = set + '.' + std::string(which.name);
   p.symbol = which.symbol;
   p.unit = which.unit;
+  const double scale = which.unit == "m" ? reading : which.unit == "N" ? load : reading / load;
+  p.lower = which.any_sign ? -scale : 0.0;
+  p.upper = scale;
+  if (which.name == "toe") p.start = 0.05 * reading;
+  if (which.name == "toe_load") {
+    p.start = 0.1 * load;
+    p.lower = 1e-3 * load;
+  }
+  return p;
+}
+
+/// Fills in what is stated of one nuisance parameter. Returns the value at which it is held, or nothing when it is
+/// fitted.
+std::optional<double> read_nuisance(const Context& c, const Place& at, const NuisanceInfo& which, FitParameter& p) {
+  if (!c.reader.object(at, "\"value\", or \"start\", \"lower\", \"upper\" or \"prior\"")) return std::nullopt;
+  c.reader.known_keys(at, nuisance_keys);
   Unit unit{which.unit, 1.0};
-  if (which.unit == "m") {
-    unit = read_unit(c, at, Quantity::length).value_or(unit);
+  if (which.unit == "m" || which.unit == "N") {
+    unit = read_unit(c, at, which.unit == "m" ? Quantity::length : Quantity::force).value_or(unit);
   } else if (const JsonValue* v = at.value().find("unit"); v != nullptr && v->text != which.unit) {
     c.problem(Place(at, *v), "only \"" + std::string(which.unit) + "\" is known here");
   }
-  const bool offset = which.unit == "m";
-  p.lower = offset ? -scale : 0.0;
-  p.upper = scale;
   const auto number = [&](std::string_view key, double& target) {
     const JsonValue* v = at.value().find(key);
-    if (v == nullptr) return;
+    if (v == nullptr) return false;
     if (const auto x = c.reader.number(Place(at, *v))) target = *x * unit.factor;
+    return true;
   };
+  if (double held = 0.0; number("value", held)) {
+    for (const std::string_view other : {"start", "lower", "upper", "prior"}) {
+      if (at.value().find(other) == nullptr) continue;
+      c.problem(at, "has \"value\", which holds it, and \"" + std::string(other) + "\", which is for a fitted one");
+    }
+    if (held < 0.0 && !which.any_sign) c.problem(at, "must be >= 0");
+    return held;
+  }
   number("start", p.start);
   number("lower", p.lower);
   number("upper", p.upper);
@@ -119,40 +141,72 @@ void read_nuisance(const Context& c, const Place& at, const NuisanceInfo& which,
   }
   if (const JsonValue* v = at.value().find("prior")) {
     const Place prior(at, *v);
-    if (!c.reader.object(prior, "\"mean\" and \"deviation\"")) return;
+    if (!c.reader.object(prior, "\"mean\" and \"deviation\"")) return std::nullopt;
     c.reader.known_keys(prior, prior_keys);
     const JsonValue* mean = c.reader.required(prior, "mean");
     const JsonValue* deviation = c.reader.required(prior, "deviation");
-    if (mean == nullptr || deviation == nullptr) return;
+    if (mean == nullptr || deviation == nullptr) return std::nullopt;
     const auto m = c.reader.number(Place(prior, *mean));
     const auto d = c.reader.positive(Place(prior, *deviation));
     if (m && d) p.prior = Prior{*m * unit.factor, *d * unit.factor};
   }
-  out.nuisances.push_back(std::move(p));
+  return std::nullopt;
 }
 
-/// Reads "nuisance"; returns for each fitted one its place in the model's list.
-std::vector<Eigen::Index> read_nuisances(const SetContext& s, const Place& set, Gauge gauge, DataSet& out) {
+/// Reads "nuisance": which of the model's list are fitted, and the values of those that are held.
+void read_nuisances(const SetContext& s, const Place& set, NotchedData& data, DataSet& out) {
+  const std::span<const NuisanceInfo> known = nuisances(data.test.gauge);
+  data.held = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(known.size()));
   const JsonValue* given = set.value().find("nuisance");
-  if (given == nullptr) return {};
+  if (given == nullptr) return;
   const Place at(set, *given);
-  if (!s.c.reader.object(at, "nuisance parameters by name")) return {};
-  const std::span<const NuisanceInfo> known = nuisances(gauge);
+  if (!s.c.reader.object(at, "nuisance parameters by name")) return;
   std::vector<std::string_view> names;
   for (const NuisanceInfo& n : known) names.push_back(n.name);
   s.c.reader.known_keys(at, names);
+  if ((given->find("toe") == nullptr) != (given->find("toe_load") == nullptr)) {
+    s.c.problem(at, "\"toe\" and \"toe_load\" go together: what settles, and the load that it takes");
+  }
   Eigen::Index peak = 0;
-  const double largest_load = out.measured.maxCoeff(&peak);
-  std::vector<Eigen::Index> places;
+  const double load = out.measured.maxCoeff(&peak);
+  const double reading = std::abs(out.abscissa[peak]);
   for (std::size_t k = 0; k < known.size(); ++k) {
     const JsonValue* v = given->find(known[k].name);
     if (v == nullptr) continue;
-    // At most the reading at the peak is offset, or all of it taken up by the machine.
-    const double reading = std::abs(out.abscissa[peak]);
-    read_nuisance(s.c, Place(at, *v), known[k], known[k].unit == "m" ? reading : reading / largest_load, out);
-    places.push_back(static_cast<Eigen::Index>(k));
+    const auto place = static_cast<Eigen::Index>(k);
+    FitParameter p = usual_nuisance(known[k], out.name, reading, load);
+    if (const auto held = read_nuisance(s.c, Place(at, *v), known[k], p)) {
+      data.held[place] = *held;
+    } else {
+      data.fitted.push_back(place);
+      out.nuisances.push_back(std::move(p));
+    }
   }
-  return places;
+}
+
+std::string micrometres(double metres) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g um", 1e6 * metres);
+  return text;
+}
+
+/// Says so when the rise does not start at the origin and nothing in the specification takes care of that.
+void judge_rise(const SetContext& s, const Place& set, const NotchedData& data, const DataSet& out) {
+  const bool cmod = data.test.gauge == Gauge::cmod;
+  if (const JsonValue* given = set.value().find("nuisance")) {
+    for (const std::string_view shift : {"cmod_offset", "deflection_offset", "toe"}) {
+      if (given->find(shift) != nullptr) return;
+    }
+  }
+  const std::optional<RiseIntercept> rise = rise_intercept(out.abscissa, out.measured);
+  if (!rise || !rise->beyond_zero) return;
+  s.c.warn(set, "the straight part of the rise (" + io::exact(rise->from) + " to " + io::exact(rise->to) +
+                    " of the peak load) meets zero load at " + micrometres(rise->reading) + ", not at zero: " +
+                    (cmod ? "the gauge was not zeroed. Fit \"nuisance\": {\"cmod_offset\": {\"unit\": \"um\"}}"
+                          : "slack, or a toe of settling rollers. Fit \"nuisance\": {\"deflection_offset\": {\"unit\": "
+                            "\"um\"}}, or "
+                            "for a curved beginning {\"toe\": {\"unit\": \"um\"}, \"toe_load\": {\"unit\": \"N\"}}") +
+                    ", or subtract it; as it is, the fit takes it for compliance, and young_modulus comes out too low");
 }
 
 void read_slope_part(const SetContext& s, const Place& set, NotchedData& data) {
@@ -198,7 +252,8 @@ void read_notched(const SetContext& s, const Place& set, SpecimenShape shape, Da
   test.readings = out.abscissa;
   const Validation found = validate(test);
   for (const Violation& v : found.errors) c.problem(set, v.field + " = " + io::exact(v.value) + ": " + v.constraint);
-  data.fitted = read_nuisances(s, set, test.gauge, out);
+  read_nuisances(s, set, data, out);
+  judge_rise(s, set, data, out);
   out.abscissa_axis = readable_axis(label_of(test.gauge), Quantity::length, out.abscissa.maxCoeff());
   out.value_axis = readable_axis("Load", Quantity::force, largest);
   out.test = std::move(data);
@@ -219,7 +274,9 @@ void read_semicircular_bend(const SetContext& s, const Place& set, DataSet& out)
 namespace fpz::calibration {
 
 Prediction predict(const NotchedData& data, const Parameters& p, const Eigen::VectorXd& nuisance, bool derivatives) {
-  Eigen::VectorXd all = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(nuisances(data.test.gauge).size()));
+  Eigen::VectorXd all = data.held.size() > 0
+                            ? data.held
+                            : Eigen::VectorXd::Zero(static_cast<Eigen::Index>(nuisances(data.test.gauge).size()));
   all(data.fitted) = nuisance;
   Prediction x = predict(data.test, p, all, derivatives);
   if (!x.ok() || !derivatives) return x;

@@ -28,11 +28,15 @@ enum class PathInput : int {
 };
 inline constexpr int path_input_count = 7;
 
-/// The reading that is prescribed: reading = gauge + offset + machine_compliance * P.
+/// The reading that is prescribed: reading = gauge + offset + machine_compliance * P + toe (1 - exp(-Q/toe_load)).
 struct Control {
   Gauge gauge = Gauge::cmod;
   double offset = 0.0;              ///< m
   double machine_compliance = 0.0;  ///< m/N, >= 0
+  /// Rollers and contacts settle by up to `toe` while the load first rises; Q is the largest load so far. Known to
+  /// monotonic_curve() only.
+  double toe = 0.0;       ///< m, >= 0
+  double toe_load = 0.0;  ///< N, > 0 where there is a toe
 };
 
 /// Cohesive crack on one condensed body. Copies nothing: body and parameters must outlive it.

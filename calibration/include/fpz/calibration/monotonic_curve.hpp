@@ -16,9 +16,14 @@
 
 namespace fpz::calibration {
 
+/// Columns of the derivatives: each PathInput, then these.
+inline constexpr int toe_column = path_input_count;
+inline constexpr int toe_load_column = path_input_count + 1;
+inline constexpr int curve_input_count = path_input_count + 2;
+
 struct MonotonicCurve {
   Eigen::VectorXd load;         ///< at each reading, N
-  Eigen::MatrixXd derivatives;  ///< one row per reading, one column per PathInput; empty when not asked for
+  Eigen::MatrixXd derivatives;  ///< one row per reading, curve_input_count columns; empty when not asked for
   std::string failure;          ///< why there is no such curve, e.g. a snap-back; empty when there is one
 };
 

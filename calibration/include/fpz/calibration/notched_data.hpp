@@ -19,7 +19,8 @@ struct ModulusEstimate {
 
 struct NotchedData {
   NotchedSpecimenTest test;
-  std::vector<Eigen::Index> fitted;  ///< places in nuisances(test.gauge) of those that are fitted; the others are 0
+  std::vector<Eigen::Index> fitted;  ///< places in nuisances(test.gauge) of those that are fitted
+  Eigen::VectorXd held;              ///< values of the others, all places; empty: zero
   double slope_from = 0.1;           ///< part of the rise, over the peak load, that gives the initial slope
   double slope_to = 0.4;
 };

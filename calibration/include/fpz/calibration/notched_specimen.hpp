@@ -94,11 +94,12 @@ struct NotchedSpecimenTest {
 [[nodiscard]] Validation validate(const NotchedSpecimenTest& test);
 
 /// Properties of a test set-up that a fit may have to find: of CMOD tests `cmod_offset`; of deflection tests
-/// `machine_compliance` and `deflection_offset`. The reading is gauge + offset + machine_compliance * P.
+/// `machine_compliance`, `deflection_offset`, `toe` and `toe_load`. Control says how the reading follows from them.
 struct NuisanceInfo {
   std::string_view name;
   std::string_view symbol;
   std::string_view unit;
+  bool any_sign = false;  ///< otherwise >= 0
 };
 [[nodiscard]] std::span<const NuisanceInfo> nuisances(Gauge gauge);
 
