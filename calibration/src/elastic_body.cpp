@@ -252,6 +252,7 @@ Functionals functionals(const HalfMesh& mesh, const Numbering& numbering, double
     add(mid, vertical(s.node), s.share);
   }
   add(mid, vertical(mesh.mid_depth), -1.0);
+  if (mesh.tip == 0) return out;
   // The knife edges turn with the face, which stays square to the notch flank: u_x(-d) = u_x - d du_x/dy at the mouth.
   const double h = mesh.nodes[static_cast<std::size_t>(mesh.mid_line[2])].y();
   const std::array<double, 3> slope = {-3.0 / h, 4.0 / h, -1.0 / h};
@@ -301,6 +302,8 @@ Condensation condense(const HalfMesh& mesh, Setting setting, double poisson_rati
   b.load = 2.0 * basis.bottomLeftCorner(m, n).transpose() * f.load;
   b.gauge_jump = f.gauges.transpose() * basis.bottomLeftCorner(m, n);
   b.gauge_load = f.gauges.transpose() * basis.col(n).tail(m);
+
+  if (mesh.tip == 0) b.gauge_jump(static_cast<int>(Gauge::cmod), 0) = 1.0;
 
   // 3. A compliance B^T K^-1 B has the derivative -U^T (dK/dnu) U, U = K^-1 B; so have its blocks after elimination.
   if (nu_derivative) {

@@ -122,8 +122,13 @@ Validation validate(const NotchedSpecimen& s) {
                   "span + roller_width must be < " + std::string(name) + " = " + Checker::text(face));
     check.require(s.roller_width < 0.25 * s.span, "roller_width", s.roller_width,
                   "must be < span / 4 = " + Checker::text(0.25 * s.span));
+    check.require(
+        s.load_span == 0.0 || (beam && s.load_span >= 2.0 * s.roller_width && s.load_span <= 0.9 * s.span), "load_span",
+        s.load_span,
+        "must be 0 (one load) or, for a beam, >= 2 roller_width and <= 0.9 span = " + Checker::text(0.9 * s.span));
   }
-  if (height_ok && check.positive("notch", s.notch)) {
+  const bool unnotched = beam && s.notch == 0.0;
+  if (height_ok && !unnotched && check.positive("notch", s.notch)) {
     const double height = s.height();
     check.require(s.notch >= 0.005 * height && s.notch <= 0.95 * height, "notch", s.notch,
                   "must be >= 0.005 and <= 0.95 times the " + std::string(beam ? "depth" : "radius") + " = " +
@@ -150,6 +155,8 @@ Validation validate(const NotchedSpecimenTest& test) {
   check.require(test.gauge != Gauge::deflection_load_point || test.specimen.roller_width > 0.0, "roller_width",
                 test.specimen.roller_width,
                 "must be > 0 for the deflection of the load point: under a point load it has no finite value");
+  check.require(test.gauge != Gauge::cmod || test.specimen.notch > 0.0, "notch", test.specimen.notch,
+                "must be > 0 for CMOD: a gauge across an unnotched face shows strain as well; use a deflection");
   check.require(test.cache != nullptr, "cache", 0.0, "must not be empty");
   return std::move(check.result);
 }
@@ -217,7 +224,8 @@ FractureCurve fracture_curve(const NotchedSpecimen& specimen, const Parameters& 
   curve.failure = why_inadmissible(parameters, specimen.setting);
   if (!curve.failure.empty()) return curve;
   const Condensation body = condense(specimen, parameters.poisson_ratio);
-  MidLine path(body, parameters, {}, false);
+  const Gauge gauge = specimen.notch > 0.0 ? Gauge::cmod : Gauge::deflection_mid_depth;
+  MidLine path(body, parameters, {gauge}, false);
   double peak = 0.0;
   double next = 0.0;
   while (curve.load.size() < most_points) {

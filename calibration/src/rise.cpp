@@ -44,8 +44,8 @@ std::optional<Line> line_through(const Eigen::VectorXd& readings, const Eigen::V
   i.to = to;
   i.points = static_cast<int>(used);
   const boost::math::students_t chance(count - 2.0);
-  i.beyond_zero = i.reading > quantile(complement(chance, 1e-4)) * i.standard_error &&
-                  i.reading > 0.03 * std::abs(readings[top]);
+  i.beyond_zero =
+      i.reading > quantile(complement(chance, 1e-4)) * i.standard_error && i.reading > 0.03 * std::abs(readings[top]);
   return line;
 }
 

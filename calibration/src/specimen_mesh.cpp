@@ -122,15 +122,19 @@ HalfMesh make_mesh(const NotchedSpecimen& s) {
   const double width = beam ? 0.5 * s.length : s.radius;
   const double half_span = 0.5 * s.span;
   const double half_roller = 0.5 * s.roller_width;
+  const double load_from = s.load_span > 0.0 ? 0.5 * s.load_span - half_roller : 0.0;
+  const double load_to = 0.5 * s.load_span + half_roller;
   const double ligament_size = s.mesh.ligament_fraction * s.ligament();
   const double tip_size = s.mesh.tip_fraction * ligament_size;
   const double support_size = s.mesh.support_fraction * height;
   const double growth = s.mesh.growth;
 
   // 1. Grid lines.
-  const std::vector<double> us =
-      grid_lines(sorted_breaks({0.0, half_roller, half_span - half_roller, half_span, half_span + half_roller, width}),
-                 {{0.0, 0.0, tip_size}, {half_span - half_roller, half_span + half_roller, support_size}}, growth, 2);
+  std::vector<Focus> foci = {{0.0, 0.0, tip_size}, {half_span - half_roller, half_span + half_roller, support_size}};
+  if (s.load_span > 0.0) foci.push_back({load_from, load_to, support_size});
+  const std::vector<double> us = grid_lines(
+      sorted_breaks({0.0, load_from, load_to, half_span - half_roller, half_span, half_span + half_roller, width}),
+      foci, growth, 2);
   const std::vector<double> vs =
       grid_lines(sorted_breaks({0.0, s.notch, 0.5 * height, height}),
                  {{s.notch, s.notch, tip_size}, {s.notch, height, ligament_size}}, growth, 2);
@@ -151,7 +155,8 @@ HalfMesh make_mesh(const NotchedSpecimen& s) {
   mesh.tip = static_cast<int>(2 * line_at(vs, s.notch));
   mesh.mid_depth = lattice.node(0, 2 * line_at(vs, 0.5 * height));
   const std::size_t top = lattice.rows() - 1;
-  mesh.load = spread(us, 0, line_at(us, half_roller), [&](std::size_t i) { return lattice.node(i, top); });
+  mesh.load =
+      spread(us, line_at(us, load_from), line_at(us, load_to), [&](std::size_t i) { return lattice.node(i, top); });
   mesh.support = spread(us, line_at(us, half_span - half_roller), line_at(us, half_span + half_roller),
                         [&](std::size_t i) { return lattice.node(i, 0); });
   return mesh;

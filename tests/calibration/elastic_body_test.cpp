@@ -23,7 +23,7 @@ void expect_statics(const NotchedSpecimen& s) {
   const double sum = c.body.load.sum();
   const double moment = c.body.load.dot(c.height);
   EXPECT_NEAR(sum, 0.0, 1e-9 * c.body.load.cwiseAbs().sum());
-  const double arm = 0.5 * s.span - 0.25 * s.roller_width;
+  const double arm = 0.5 * s.arms() - (s.load_span > 0.0 ? 0.0 : 0.25 * s.roller_width);
   EXPECT_NEAR(moment, -0.5 * arm, 1e-8 * arm);
 }
 
@@ -33,6 +33,35 @@ TEST(ElasticBody, BalancesTheLoad) {
   wide.roller_width = 10e-3;
   expect_statics(wide);
   expect_statics(semicircular());
+  for (const double notch : {0.02, 0.0}) {
+    wide.notch = notch;
+    wide.load_span = wide.span / 3.0;
+    expect_statics(wide);
+  }
+}
+
+/// Between two loads a beam without a notch is in pure bending: Navier's straight line of stress, Euler's deflection
+/// with what the shear between load and support adds (Timoshenko, 6/5 of the mean shear stress).
+TEST(ElasticBody, FourPointBendingOfAnUnnotchedBeam) {
+  NotchedSpecimen s = beam();
+  s.notch = 0.0;
+  s.span = 1.0;
+  s.length = 1.05;
+  s.load_span = 0.4;
+  s.roller_width = 0.01;
+  s.setting = Setting::plane_stress;
+  const Condensation c = condense(s, nu);
+  const Eigen::VectorXd stress = c.body.load.cwiseQuotient(c.area);
+  const double largest = 1.5 * s.arms() / (s.thickness * s.depth * s.depth);
+  for (Eigen::Index k = 0; k < stress.size(); ++k) {
+    EXPECT_NEAR(stress[k], largest * (1.0 - 2.0 * c.height[k] / s.depth), 2e-3 * largest) << c.height[k];
+  }
+  const double inertia = s.thickness * std::pow(s.depth, 3) / 12.0;
+  const double arm = 0.5 * s.arms();
+  const double bending = arm * (3.0 * s.span * s.span - 4.0 * arm * arm) / (48.0 * inertia);
+  const double shear = 0.5 * arm * 1.2 * 2.0 * (1.0 + nu) / (s.thickness * s.depth);
+  const double deflection = c.body.gauge_load[static_cast<int>(Gauge::deflection_mid_depth)];
+  EXPECT_NEAR(deflection / (bending + shear), 1.0, 2e-3);
 }
 
 /// w = 1 and w = 1 - y/y0 move both halves rigidly.

@@ -223,6 +223,37 @@ TEST(NotchedSpecimen, DuctileLimitIsThePlasticHinge) {
   EXPECT_NEAR(r.values[2] / hinge, 1.0, 0.01);
 }
 
+/// The same under two loads: P (span - load_span)/4 = sigma_t0 b lig^2/2, and without a notch.
+TEST(NotchedSpecimen, DuctileLimitUnderTwoLoads) {
+  Parameters p = concrete();
+  p.delta0 = 10.0;
+  NotchedSpecimen s = beam();
+  s.load_span = s.span / 3.0;
+  for (const double notch : {s.notch, 0.0}) {
+    s.notch = notch;
+    const double hinge = 2.0 * p.tensile_strength * s.thickness * s.ligament() * s.ligament() / s.arms();
+    const Prediction r = run(s, p, Gauge::deflection_mid_depth, Eigen::Vector2d(1e-3, 1e-2));
+    ASSERT_TRUE(r.ok()) << r.failure;
+    EXPECT_NEAR(r.values[1] / hinge, 1.0, 0.01);
+  }
+}
+
+/// Without a notch a short process zone lets the beam fail when Navier's stress reaches sigma_t0; a long one lets it
+/// carry more.
+TEST(NotchedSpecimen, ModulusOfRuptureOfAnUnnotchedBeam) {
+  NotchedSpecimen s = beam();
+  s.notch = 0.0;
+  s.load_span = s.span / 3.0;
+  Parameters p = concrete();
+  p.delta0 = 60e-6;  // stable under deflection control
+  const Prediction r = run(s, p, Gauge::deflection_mid_depth, Eigen::VectorXd::LinSpaced(200, 1e-6, 2e-4));
+  ASSERT_TRUE(r.ok()) << r.failure;
+  const double rupture = 1.5 * s.arms() / (s.thickness * s.depth * s.depth) * r.values.maxCoeff();
+  EXPECT_GT(rupture, 1.3 * p.tensile_strength);
+  EXPECT_LT(rupture, 3.0 * p.tensile_strength);  // the plastic hinge
+  EXPECT_NE(run(s, p, Gauge::cmod, Eigen::VectorXd::Constant(1, 1e-5)).failure.find("unnotched"), std::string::npos);
+}
+
 TEST(NotchedSpecimen, ScalesWithStressAndWithLength) {
   const Eigen::VectorXd cmod = Eigen::VectorXd::LinSpaced(6, 5e-6, 1e-4);
   const Parameters p = concrete();
@@ -380,6 +411,10 @@ TEST(NotchedSpecimen, DerivativesAgainstDeflections) {
     expect_derivatives(test_of(s, gauge, deflection), nuisance);
   s = coarse(semicircular());
   s.roller_width = 2e-3;
+  expect_derivatives(test_of(s, Gauge::deflection_load_point, deflection), nuisance);
+  s = coarse(beam());
+  s.roller_width = 4e-3;
+  s.load_span = s.span / 3.0;
   expect_derivatives(test_of(s, Gauge::deflection_load_point, deflection), nuisance);
 }
 

@@ -188,6 +188,21 @@ TEST_F(Recovery, NotchedBeam) {
                 {"cmod", "load"}, {line(25, 2e-6, 120e-6)}, 1000.0, {"young_modulus", "tensile_strength", "delta0"});
 }
 
+TEST_F(Recovery, NotchedBeamUnderTwoLoads) {
+  recover_curve(
+      "notched_beam",
+      R"("geometry": {"unit": "mm", "depth": 50, "thickness": 50, "span": 150, "load_span": 50, "notch": 20}, )",
+      {"cmod", "load"}, {line(25, 2e-6, 120e-6)}, 1000.0, {"young_modulus", "tensile_strength", "delta0"});
+}
+
+TEST_F(Recovery, UnnotchedBeam) {
+  recover_curve(
+      "notched_beam",
+      R"("geometry": {"unit": "mm", "depth": 20, "thickness": 20, "span": 60, "load_span": 20, "notch": 0}, )",
+      {"deflection_mid_depth", "load"}, {line(30, 2e-6, 60e-6)}, 1000.0,
+      {"young_modulus", "tensile_strength", "delta0"});
+}
+
 TEST_F(Recovery, SemicircularBend) {
   recover_curve("semicircular_bend",
                 R"("geometry": {"unit": "mm", "radius": 50, "thickness": 25, "span": 80, "notch": 20}, )",

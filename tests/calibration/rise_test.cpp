@@ -162,7 +162,8 @@ TEST(Toe, IsFittedWithTheMaterial) {
   ASSERT_EQ(x.size(), truth.size());
   for (Eigen::Index k = 0; k < truth.size(); ++k) {
     const double error = std::max(c.result.standard_error[k], c.result.correlated_error[k]);
-    EXPECT_NEAR(x[k], truth[k], 3.5 * error + 0.002 * truth[k]) << c.problem.parameters[static_cast<std::size_t>(k)].name;
+    EXPECT_NEAR(x[k], truth[k], 3.5 * error + 0.002 * truth[k])
+        << c.problem.parameters[static_cast<std::size_t>(k)].name;
     EXPECT_LT(error, 0.1 * truth[k]) << c.problem.parameters[static_cast<std::size_t>(k)].name;
   }
 }

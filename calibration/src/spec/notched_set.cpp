@@ -24,8 +24,8 @@ const char* label_of(Gauge gauge) {
   return "";
 }
 
-constexpr std::array<std::string_view, 8> beam_keys = {"unit",  "depth",  "thickness",    "span",
-                                                       "notch", "length", "roller_width", "clip_gauge_distance"};
+constexpr std::array<std::string_view, 9> beam_keys = {
+    "unit", "depth", "thickness", "span", "load_span", "notch", "length", "roller_width", "clip_gauge_distance"};
 constexpr std::array<std::string_view, 7> disc_keys = {"unit",  "radius",       "thickness",          "span",
                                                        "notch", "roller_width", "clip_gauge_distance"};
 constexpr std::array<std::string_view, 6> nuisance_keys = {"value", "start", "unit", "lower", "upper", "prior"};
@@ -51,11 +51,12 @@ NotchedSpecimen read_geometry(const SetContext& s, const Place& set, SpecimenSha
   };
   g.thickness = needed("thickness", typical::small_size);
   g.span = needed("span", typical::specimen_size);
-  g.notch = needed("notch", typical::small_size);
+  g.notch = read_member(c, at, "notch", *unit, typical::small_size, true, beam).value_or(0.0);
   if (beam) {
     g.depth = needed("depth", typical::specimen_size);
     const auto length = read_member(c, at, "length", *unit, typical::specimen_size, false);
     g.length = length.value_or(g.span + g.depth);  // what overhangs carries nothing
+    g.load_span = read_member(c, at, "load_span", *unit, typical::specimen_size, false, true).value_or(0.0);
   } else {
     g.radius = needed("radius", typical::specimen_size);
   }
@@ -69,9 +70,9 @@ NotchedSpecimen read_geometry(const SetContext& s, const Place& set, SpecimenSha
   return g;
 }
 
-/// By the nominal bending stress 1.5 P span/(thickness ligament^2) that the largest load means.
+/// By the nominal bending stress 1.5 P (span - load_span)/(thickness ligament^2) that the largest load means.
 void judge_load(const SetContext& s, const Place& set, const NotchedSpecimen& g, double largest) {
-  const double per_load = 1.5 * g.span / (g.thickness * g.ligament() * g.ligament());
+  const double per_load = 1.5 * g.arms() / (g.thickness * g.ligament() * g.ligament());
   const Typical t = scaled(typical::bending_stress, Quantity::force, per_load);
   const JsonValue* given = set.value().find("columns");
   if (given == nullptr) given = set.value().find("values");

@@ -29,8 +29,9 @@ struct HalfMesh {
   std::vector<std::array<int, 8>>
       elements;               ///< four corners counterclockwise, then the sides' middles from corner 0 on
   std::vector<int> mid_line;  ///< nodes on x = 0 from the face upwards, corners and middles in turn
-  int tip = 0;                ///< index in mid_line of the notch tip, even and at least 4; the ligament starts there
-  int mid_depth = 0;          ///< node on the mid-line at half depth
+  /// Index in mid_line of the notch tip, even and at least 4, or 0 without a notch; the ligament starts there.
+  int tip = 0;
+  int mid_depth = 0;  ///< node on the mid-line at half depth
   std::vector<NodeShare> load;
   std::vector<NodeShare> support;
   double thickness = 0.0;  ///< m
@@ -38,7 +39,9 @@ struct HalfMesh {
 
 /// Measured displacements, in the order of the rows of CondensedBody::gauge_jump.
 enum class Gauge : int {
-  cmod,                   ///< opening of the notch at its mouth (or at the clip gauge below it), m
+  /// Opening of the notch at its mouth (or at the clip gauge below it), m. Without a notch the opening of the crack at
+  /// the face.
+  cmod,
   deflection_mid_depth,   ///< of the mid-line at half depth, relative to the supports, downwards, m
   deflection_load_point,  ///< of the load, relative to the supports, downwards, m: its work is P d(deflection)
 };

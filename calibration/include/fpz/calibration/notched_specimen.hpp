@@ -1,5 +1,5 @@
-// Notched beams in three-point bending and semicircular specimens at zero notch angle: an elastic body with a straight
-// cohesive crack along its plane of symmetry, in pure mode I (eq 43-50).
+// Beams in three- and four-point bending, notched or not, and semicircular specimens at zero notch angle: an elastic
+// body with a straight cohesive crack along its plane of symmetry, in pure mode I (eq 43-50).
 #pragma once
 
 #include <Eigen/Core>
@@ -17,7 +17,7 @@
 namespace fpz::calibration {
 
 enum class SpecimenShape {
-  beam,         ///< rectangle on two supports, notch from below, load on top
+  beam,         ///< rectangle on two supports, notch from below or none, one load on top or two
   semicircular  ///< half disc, flat side down on two supports, notch from the flat side, load on top
 };
 
@@ -39,7 +39,8 @@ struct NotchedSpecimen {
   double radius = 0.0;     ///< of the half disc, m (beam: unused)
   double thickness = 0.0;  ///< m
   double span = 0.0;       ///< between the supports, m
-  double notch = 0.0;      ///< length of the notch from the face, m
+  double load_span = 0.0;  ///< of the beam: between the two loads of P/2, m; 0: one load P
+  double notch = 0.0;      ///< length of the notch from the face, m; a beam may have none
   /// Load and supports: 0 puts them on points; otherwise they are even pressures over this width (m), and deflections
   /// are means over it. A wide roller shortens the lever arms: the load rises by about roller_width/(2 span). A point
   /// indents an elastic body without limit, so the deflection (not the load and the CMOD) depends on the elements
@@ -53,6 +54,8 @@ struct NotchedSpecimen {
   /// Depth of the beam or radius of the half disc, m.
   [[nodiscard]] double height() const { return shape == SpecimenShape::beam ? depth : radius; }
   [[nodiscard]] double ligament() const { return height() - notch; }
+  /// P (span - load_span)/4 is the bending moment at mid-span. m
+  [[nodiscard]] double arms() const { return span - load_span; }
   [[nodiscard]] bool operator==(const NotchedSpecimen&) const = default;
 };
 
@@ -110,7 +113,8 @@ struct NuisanceInfo {
 [[nodiscard]] Prediction predict(const NotchedSpecimenTest& test, const Parameters& parameters,
                                  const Eigen::VectorXd& nuisance, bool derivatives);
 
-/// A whole test, one entry per state of equilibrium, under steadily growing CMOD.
+/// A whole test, one entry per state of equilibrium, under steadily growing CMOD; without a notch under growing
+/// deflection at mid-depth, which may end in a snap-back.
 struct FractureCurve {
   std::vector<double> load;                   ///< P, N
   std::vector<double> cmod;                   ///< m
