@@ -26,6 +26,9 @@ class Body {
   [[nodiscard]] virtual Outcome advance() = 0;
   /// Forces at n, velocities to n + 1/2; `view` has the step of this kick.
   virtual void force(const View<Dim>& view) = 0;
+  /// Forces of this step besides those that force() sums: whether there are any; adds them to outer_force.
+  [[nodiscard]] virtual bool pushes() const { return false; }
+  virtual void push() {}
 
   /// What cannot be found from the particles, for snapshots; load() makes what follows from it, after the particles.
   virtual void save(Writer& archive) const = 0;
@@ -51,6 +54,9 @@ class Body {
   /// Stores what the force sums for a particle with this stress.
   virtual void set_flux(std::size_t i, const Symmetric& stress) = 0;
 
+  /// Lets a cracked particle be as if it had not: its state becomes `state` (stress kept, strain that of an intact
+  /// one). False where that cannot be.
+  virtual bool forget_crack(std::size_t, const State<double, Dim>&) { return false; }
   /// Gives a particle that snaps back a shorter H, if it can.
   virtual bool shorten_band(std::size_t) { return false; }
 
@@ -66,6 +72,12 @@ class Body {
     archive(self.builds_);
     archive(self.released_);
   }
+
+  /// What a particle begins the step with; a crack that takes another plane (Options::reorientation_damage) is open on
+  /// it.
+  [[nodiscard]] State<double, Dim> state_at_begin(std::size_t i, Material<double>& m);
+  /// Whether a young crack leaves another plane to fail.
+  [[nodiscard]] bool wants_another_plane(std::size_t i, const Material<double>& m) const;
 
   RunData<Dim>& run_;
   NeighbourLists lists_;

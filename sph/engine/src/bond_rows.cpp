@@ -32,6 +32,7 @@ BondRows<Dim>::BondRows(RunData<Dim>& run, NeighbourLists& lists, Bonds<Dim>& bo
       bonds_(bonds),
       leans_(run.particles.count, 0.0),
       has_lost_(run.particles.count, 0),
+      softened_(run.particles.count, 1.0),
       width_(run.particles.count, Width::whole) {
   const Options<Dim>& o = run.setup.options;
   bonds_ = pack<Dim>(lists_, run.particles.padded(), false);
@@ -106,7 +107,11 @@ Full BondRows<Dim>::moment(std::size_t i) const {
 template <int Dim>
 Full BondRows<Dim>::correction(std::size_t i) const {
   const Full m = moment(i);
-  if (has_lost_[i] != 0) return bounded_inverse(m, least_whole);
+  if (has_lost_[i] != 0 || softened_[i] != 1.0) {
+    const Full l = bounded_inverse(m, least_whole);
+    const double part = softened_[i];
+    return {part * l.xx, part * l.xy, part * l.yx, part * l.yy};
+  }
   if (!vectors_) return full(correction_of(Symmetric{m.xx, m.yy, m.xy}));
   return correction_of(m);
 }
@@ -144,6 +149,53 @@ void BondRows<Dim>::write(std::size_t i) {
     bonds_.weight[1][entry] = c.yx * wx + c.yy * wy;
   }
   set_correction(i, {1.0, 0.0, 0.0, 1.0});
+}
+
+template <int Dim>
+void BondRows<Dim>::add_half_way(std::size_t i, double part) {
+  const auto& t = run_.particles.flux;
+  // All places of the row: those of bonds that are cut are still there until it is written.
+  const std::size_t block = i / lanes;
+  const auto width = static_cast<std::size_t>(bonds_.column[block + 1] - bonds_.column[block]);
+  for (std::size_t k = 0; k < width; ++k) {
+    const std::size_t entry = bonds_.entry(i, k);
+    const double wx = bonds_.weight[0][entry], wy = bonds_.weight[1][entry];
+    const Vec<double, Dim> f(part * (t[0][i] * wx + t[1][i] * wy), part * (t[2][i] * wx + t[3][i] * wy));
+    half_way_.emplace_back(i, f);
+    half_way_.emplace_back(static_cast<std::size_t>(bonds_.neighbour[entry]), -f);
+  }
+}
+
+template <int Dim>
+template <class F>
+void BondRows<Dim>::change(std::size_t i, F&& f) {
+  add_half_way(i, 0.5);
+  f();
+  const Particles<Dim>& p = run_.particles;
+  set_flux(i, {p.stress[0][i], p.stress[1][i], p.stress[2][i]});
+  add_half_way(i, -0.5);
+}
+
+template <int Dim>
+void BondRows<Dim>::set_flux(std::size_t i, const Symmetric& stress) {
+  Particles<Dim>& p = run_.particles;
+  const Full l = {p.correction[0][i], p.correction[2][i], p.correction[3][i], p.correction[1][i]};
+  const Full t = flux_of(p.rotation[0][i], p.rotation[1][i], stress, l);
+  p.flux[0][i] = t.xx;
+  p.flux[1][i] = t.xy;
+  p.flux[2][i] = t.yx;
+  p.flux[3][i] = t.yy;
+}
+
+template <int Dim>
+void BondRows<Dim>::rewrite(std::size_t i) {
+  change(i, [&] { write(i); });
+}
+
+template <int Dim>
+void BondRows<Dim>::soften(std::size_t i, double part) {
+  softened_[i] *= part;
+  change(i, [&] { set_correction(i, correction(i)); });
 }
 
 template <int Dim>

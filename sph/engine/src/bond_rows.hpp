@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 
 #include "bond_vectors.hpp"
 #include "bonds.hpp"
@@ -20,6 +21,14 @@ class BondRows {
   /// Weights and correction of a row from its list.
   void write(std::size_t i);
   void write_all();
+  /// The same under load. The force of this step is half that of the old row, half that of the new one, as the strains
+  /// before and after it are: with either of them alone the step would not balance its energies.
+  void rewrite(std::size_t i);
+  /// What rows that changed in this step add to the force of the new ones: particle, N.
+  [[nodiscard]] std::vector<std::pair<std::size_t, Vec<double, Dim>>> take_half_way() {
+    return std::exchange(half_way_, {});
+  }
+  [[nodiscard]] bool has_half_way() const { return !half_way_.empty(); }
 
   [[nodiscard]] const std::vector<int>& neighbours(std::size_t i) const { return lists_[i]; }
   /// Whether lost bonds have left a row too little for a whole gradient.
@@ -45,20 +54,35 @@ class BondRows {
     }
     return s;
   }
-  /// L_i of eq 18; of a row that has lost most of its bonds less than that.
+  /// Calls visit(neighbour, x, y) with the vector of each bond of a row.
+  template <class Visit>
+  void for_bonds(std::size_t i, Visit&& visit) const {
+    for (std::size_t k = 0; k < lists_[i].size(); ++k) {
+      const std::size_t entry = bonds_.entry(i, k);
+      visit(static_cast<std::size_t>(lists_[i][k]), bonds_.weight[0][entry], bonds_.weight[1][entry]);
+    }
+  }
+  /// From now on a row sees this part of its gradient less: at once, and whenever it is written again.
+  void soften(std::size_t i, double part);
+  /// L_i of eq 18; of a row that has lost most of its bonds, or is softened, less than that.
   [[nodiscard]] Full correction(std::size_t i) const;
   /// The gradient of a crack that the neighbours of a particle see along it, over that across it: derivatives along
   /// the crack are then taken in the direction t - lean n. Sets L_i, without it correction().
   void set_lean(std::size_t i, double lean, const Full& correction);
+  [[nodiscard]] double lean(std::size_t i) const { return leans_[i]; }
   /// Of a row that is to be written.
   void forget_lean(std::size_t i) { leans_[i] = 0.0; }
 
-  /// Leans, narrowed rows and those that have lost bonds; after reading, all rows are to be written.
+  /// What the force sums for a particle with this stress.
+  void set_flux(std::size_t i, const Symmetric& stress);
+
+  /// Leans, narrowed rows, those that have lost bonds, those softened; after reading, all rows are to be written.
   template <class Archive, class Self>
   static void transfer(Archive& archive, Self& self) {
     archive(self.leans_);
     archive(self.width_);
     archive(self.has_lost_);
+    archive(self.softened_);
   }
 
  private:
@@ -79,15 +103,22 @@ class BondRows {
   [[nodiscard]] double least_moment(std::size_t i) const;
   [[nodiscard]] Full moment(std::size_t i) const;
   void set_correction(std::size_t i, const Full& c);
+  /// Adds a part of the force of a row to half_way_.
+  void add_half_way(std::size_t i, double part);
+  /// Changes a row by f(), under load.
+  template <class F>
+  void change(std::size_t i, F&& f);
 
   RunData<Dim>& run_;
   NeighbourLists& lists_;
   Bonds<Dim>& bonds_;
   std::optional<BondVectors<Dim>> vectors_;  ///< none: those of the kernel
   Field leans_;
-  Mask has_lost_;  ///< a bond was cut
+  Mask has_lost_;   ///< a bond was cut
+  Field softened_;  ///< part of the gradient that is seen
   enum class Width : char { whole, narrow, refused };
   std::vector<Width> width_;
+  std::vector<std::pair<std::size_t, Vec<double, Dim>>> half_way_;
 };
 
 }  // namespace fpz::sph::detail

@@ -138,6 +138,12 @@ void CrackBands<Dim>::change_length(std::size_t i, double length) {
 }
 
 template <int Dim>
+void CrackBands<Dim>::forget(std::size_t i, const Tensor<double, Dim>& change) {
+  for (std::size_t c = 0; c < run_.components; ++c) shift_[c][i] += change[static_cast<int>(c)];
+  at_first_[i] = 0.0;
+}
+
+template <int Dim>
 void CrackBands<Dim>::follow(Index first, Index last) {
   const Particles<Dim>& p = run_.particles;
   for (std::size_t i = lanes_begin(first); i < std::min(lanes_begin(last), p.count); ++i) {

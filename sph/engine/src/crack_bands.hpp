@@ -41,6 +41,8 @@ class CrackBands {
   /// Gives particle i the H of the arrangement back, for good, when it has a longer one: a long H can snap back in
   /// shear. False when there is nothing to shorten.
   bool shorten(std::size_t i);
+  /// A crack is forgotten: the strain of its particle changes by this at the same deformation.
+  void forget(std::size_t i, const Tensor<double, Dim>& change);
   /// Strain of the material point of particle i less the strain of the particle.
   [[nodiscard]] Tensor<double, Dim> shift(std::size_t i) const;
 

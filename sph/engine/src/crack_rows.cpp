@@ -17,7 +17,8 @@ template <int Dim>
 void CrackRows<Dim>::write(std::vector<std::size_t>& changed) {
   std::sort(changed.begin(), changed.end());
   changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
-  for (const std::size_t i : changed) rows_.write(i);
+  for (const std::size_t i : changed) rows_.rewrite(i);
+  stability_.keep(changed);
 }
 
 /// Beyond the first row, a particle whose neighbours reach across a crack would have to hold its opening: by moving
@@ -90,6 +91,12 @@ bool CrackRows<Dim>::straighten(std::size_t i) {
   const Full correction = rows_.correction(i);
   rows_.set_lean(i, lean_of(i, correction), correction);
   return true;
+}
+
+template <int Dim>
+void CrackRows<Dim>::forget(std::size_t i) {
+  straightened_[i] = 1.0;
+  if (rows_.lean(i) != 0.0) rows_.set_lean(i, 0.0, rows_.correction(i));
 }
 
 template <int Dim>

@@ -2,17 +2,20 @@
 // it have no part of its opening, and at the end its bonds are cut.
 #pragma once
 
-#include "bond_rows.hpp"
+#include "row_stability.hpp"
 
 namespace fpz::sph::detail {
 
 template <int Dim>
 class CrackRows {
  public:
-  CrackRows(RunData<Dim>& run, BondRows<Dim>& rows) : run_(run), rows_(rows), straightened_(run.particles.count, 1.0) {}
+  CrackRows(RunData<Dim>& run, BondRows<Dim>& rows)
+      : run_(run), rows_(rows), stability_(run, rows), straightened_(run.particles.count, 1.0) {}
 
   /// Finds the lean of a particle again if its crack has grown; says whether it did.
   bool straighten(std::size_t i);
+  /// A crack is forgotten: the row has no lean.
+  void forget(std::size_t i);
   /// Narrows the rows of particles that have begun to open.
   void narrow();
   /// Cuts bonds across open cracks (options.release_integrity), and adds them to `cut`.
@@ -35,6 +38,7 @@ class CrackRows {
 
   RunData<Dim>& run_;
   BondRows<Dim>& rows_;
+  RowStability<Dim> stability_;
   Field straightened_;  ///< integrity at which the lean was found
 };
 

@@ -3,6 +3,7 @@
 
 #include "body.hpp"
 #include "fpz/energy.hpp"
+#include "fpz/onset.hpp"
 #include "fpz/sph/band.hpp"
 #include "fpz/update.hpp"
 #include "weak_plane.hpp"
@@ -39,19 +40,39 @@ Outcome Body<Dim>::update_flagged(Index first, Index last) {
   return {};
 }
 
+template <int Dim>
+bool Body<Dim>::wants_another_plane(std::size_t i, const Material<double>& m) const {
+  const double most = run_.setup.options.reorientation_damage;
+  const State<double, Dim>& point = run_.particles.point[i];
+  if (!(damage(point.crack) < most) || run_.materials.cracked_on_weak_plane(i)) return false;
+  // Its own has softened: one that fails is another.
+  return critical_plane<Dim>(m, point.stress).failure_value > 0.0;
+}
+
+template <int Dim>
+State<double, Dim> Body<Dim>::state_at_begin(std::size_t i, Material<double>& m) {
+  Particles<Dim>& p = run_.particles;
+  State<double, Dim> intact;
+  intact.stress = p.stress_of(i);
+  intact.strain = elastic_strain<Dim>(m.bulk, intact.stress);
+  if (p.kind[i] != kind::cracked) return intact;
+  if (!wants_another_plane(i, m) || !forget_crack(i, intact)) return p.point[i];
+  // What it has opened stays as a strain without stress, what that took as fracture energy; its springs let go.
+  run_.ledger.viscous[i / lanes] += p.volume[i] / p.length[i] * free_energy(m.law, p.point[i].crack);
+  open_crack<Dim>(m, run_.update_options, intact);
+  set_band_length(i, intact.frame.row(0).transpose());
+  set_rve_length(m, p.length[i]);
+  p.point[i] = intact;
+  return intact;
+}
+
 /// eq 21 for a particle that is, or may now become, cracked.
 template <int Dim>
 Outcome Body<Dim>::update_particle(std::size_t i) {
   Particles<Dim>& p = run_.particles;
   Material<double> m = run_.materials.material(i, p.length[i]);
-  State<double, Dim> point;
-  if (p.kind[i] == kind::cracked) {
-    point = p.point[i];
-  } else {
-    point.stress = p.stress_of(i);
-    point.strain = elastic_strain<Dim>(m.bulk, point.stress);
-  }
-  const State<double, Dim> begin = point;
+  const State<double, Dim> begin = state_at_begin(i, m);
+  State<double, Dim> point = begin;
   const Tensor<double, Dim> increment = strain_increment(i, begin);
   Report report;
   if (const auto opened = opened_weak_plane<Dim>(run_.materials, i, begin, increment)) {

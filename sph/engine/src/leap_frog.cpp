@@ -54,11 +54,12 @@ void Engine<Dim>::kick(double step) {
   view.work_before = run.started ? 0.5 * run.dt : 0.0;
   view.work_after = 0.5 * run.dt;
   if (control) control->act();
-  view.pushed = view.pushed || touching;
+  view.pushed = view.pushed || touching || body->pushes();
   if (view.pushed) {
     for (Field& f : run.outer_force) std::fill(f.begin(), f.end(), 0.0);
     for (const auto& boundary : boundaries) boundary->push();
     if (touching) contact->push();
+    body->push();
   }
   body->force(view);
   if (contact) contact->act(step);

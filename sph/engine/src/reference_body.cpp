@@ -76,14 +76,25 @@ Tensor<double, Dim> ReferenceBody<Dim>::strain_increment(std::size_t i, const St
 }
 
 template <int Dim>
+bool ReferenceBody<Dim>::forget_crack(std::size_t i, const State<double, Dim>& state) {
+  if (!bands_) return false;  // its strain would have no place
+  bands_->forget(i, state.strain - this->run_.particles.point[i].strain);
+  crack_rows_.forget(i);
+  return true;
+}
+
+template <int Dim>
 void ReferenceBody<Dim>::set_flux(std::size_t i, const Symmetric& stress) {
-  Particles<Dim>& p = this->run_.particles;
-  const Full l = {p.correction[0][i], p.correction[2][i], p.correction[3][i], p.correction[1][i]};
-  const Full t = flux_of(p.rotation[0][i], p.rotation[1][i], stress, l);
-  p.flux[0][i] = t.xx;
-  p.flux[1][i] = t.xy;
-  p.flux[2][i] = t.yx;
-  p.flux[3][i] = t.yy;
+  rows_.set_flux(i, stress);
+}
+
+template <int Dim>
+void ReferenceBody<Dim>::push() {
+  for (const auto& [i, force] : rows_.take_half_way()) {
+    for (std::size_t c = 0; c < this->run_.dimensions; ++c) {
+      this->run_.outer_force[c][i] += force[static_cast<int>(c)];
+    }
+  }
 }
 
 template <int Dim>

@@ -19,6 +19,8 @@ class ReferenceBody final : public Body<Dim> {
   void start() override;
   [[nodiscard]] Outcome advance() override;
   void force(const View<Dim>& view) override;
+  [[nodiscard]] bool pushes() const override { return rows_.has_half_way(); }
+  void push() override;
   void save(Writer& archive) const override;
   void load(Reader& archive) override;
   [[nodiscard]] bool is_loose(std::size_t i) const override { return rows_.is_loose(i); }
@@ -28,6 +30,7 @@ class ReferenceBody final : public Body<Dim> {
   [[nodiscard]] Tensor<double, Dim> strain_increment(std::size_t i, const State<double, Dim>& begin) const override;
   void turn(std::size_t, State<double, Dim>&) const override {}
   void set_flux(std::size_t i, const Symmetric& stress) override;
+  bool forget_crack(std::size_t i, const State<double, Dim>& state) override;
   bool shorten_band(std::size_t i) override { return bands_ && bands_->shorten(i); }
 
  private:

@@ -232,5 +232,36 @@ TEST(Fracture, TwoPiecesFlyApart) {
   EXPECT_NEAR(e.fracture / exact, 0.98, 0.03);
 }
 
+/// Largest principal stress over the strength in the middle of a block that flies apart in both directions, a little
+/// faster in x, up to the time (s) at which the surfaces are felt there.
+double largest_stress(double reorientation_damage, double until) {
+  RunSetup<2> s = block(24, 24, 0.0, spacing);
+  s.parameters = concrete();
+  s.options.courant = 0.01;  // the other plane is seen a step late
+  s.options.reorientation_damage = reorientation_damage;
+  const double rate = 200.0;
+  set_velocity(s, [&](const Vector& x) { return vec(rate * (x[0] - 12e-3), 0.97 * rate * (x[1] - 12e-3)); });
+  Simulation<2> run(s);
+  double most = 0.0;
+  while (run.time() < until) {
+    EXPECT_TRUE(run.step().ok());
+    const Particles<2>& p = run.particles();
+    for (std::size_t i = 0; i < p.count; ++i) {
+      if (std::hypot(p.start[0][i] - 12e-3, p.start[1][i] - 12e-3) > 2e-3) continue;
+      const double half = 0.5 * (p.stress[0][i] - p.stress[1][i]);
+      most = std::max(most, 0.5 * (p.stress[0][i] + p.stress[1][i]) + std::hypot(half, p.stress[2][i]));
+    }
+  }
+  EXPECT_GT(run.cracked(), 100U);
+  return most / s.parameters.tensile_strength;
+}
+
+/// A particle that has cracked across x bears no more than its strength along y, where it fails next.
+TEST(Fracture, YoungCracksTakeThePlaneThatFails) {
+  const double until = 1.5e-6;
+  EXPECT_GT(largest_stress(0.0, until), 1.5);
+  EXPECT_LT(largest_stress(0.02, until), 1.02);
+}
+
 }  // namespace
 }  // namespace fpz::sph::test

@@ -67,6 +67,9 @@ struct Options {
   /// reference: the bonds of a crack whose integrity 1 - D is below this are cut where the displacements of their two
   /// ends differ by at least half of its opening. 0: never, and rows of cracked particles are not narrowed.
   double release_integrity = 0.02;
+  /// reference: a crack with a damage below this takes another plane when that one fails. Ahead of a tip the stress
+  /// along the path may reach the strength before the one across it, and a particle has one plane. 0: never.
+  double reorientation_damage = 0.02;
   Vec<double, Dim> gravity = Vec<double, Dim>::Zero();  ///< m/s^2
   int threads = 0;                                      ///< 0: all that OpenMP offers
   InstructionSet instruction_set = InstructionSet::best;
