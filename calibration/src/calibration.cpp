@@ -245,6 +245,19 @@ std::vector<Derived> derive(const Calibration& all, const std::vector<int>& fitt
   return list;
 }
 
+/// G_F of the curves for which it is wanted, beside that of the fit.
+void add_work_of_fracture(Calibration& all) {
+  for (const DataSet& set : all.specification.data) {
+    const auto work = std::visit([&](const auto& test) { return measured_work(test, set.measured); }, set.test);
+    if (!work || !work->failure.empty()) continue;
+    const double whole = work->measured + work->weight + work->tail;
+    all.derived.push_back({"fracture energy by the work of fracture, " + set.name, "G_F", "N/m", work->energy, NAN});
+    if (work->measured > 0.7 * whole) continue;
+    all.warnings.push_back(set.name + ": of the work of fracture only " + detail::percent(work->measured / whole) +
+                           " was measured; weight and tail add the rest");
+  }
+}
+
 std::optional<TwoEnergies> confront_energies(const Calibration& all) {
   const FractureEnergyData* one = nullptr;
   const FractureEnergyData* two = nullptr;
@@ -339,6 +352,7 @@ Calibration calibrate(const Specification& spec, const std::function<void(const 
   }
   all.energies = confront_energies(all);
   add_warnings(all);
+  add_work_of_fracture(all);
   return all;
 }
 

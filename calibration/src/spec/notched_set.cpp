@@ -31,6 +31,7 @@ constexpr std::array<std::string_view, 7> disc_keys = {"unit",  "radius",       
 constexpr std::array<std::string_view, 6> nuisance_keys = {"value", "start", "unit", "lower", "upper", "prior"};
 constexpr std::array<std::string_view, 2> prior_keys = {"mean", "deviation"};
 constexpr std::array<std::string_view, 2> slope_keys = {"from", "to"};
+constexpr std::array<std::string_view, 1> work_keys = {"weight"};
 
 NotchedSpecimen read_geometry(const SetContext& s, const Place& set, SpecimenShape shape) {
   const Context& c = s.c;
@@ -225,9 +226,33 @@ void read_slope_part(const SetContext& s, const Place& set, NotchedData& data) {
   if (!(data.slope_from < data.slope_to)) s.c.problem(at, "\"from\" must be below \"to\"");
 }
 
+/// "work_of_fracture": {"weight": ...}: G_F from the area under the curve, too.
+void read_work(const SetContext& s, const Place& set, NotchedData& data, const DataSet& out) {
+  const JsonValue* given = set.value().find("work_of_fracture");
+  if (given == nullptr) return;
+  const Place at(set, *given);
+  if (!s.c.reader.object(at, "\"weight\", 0 where it is balanced")) return;
+  s.c.reader.known_keys(at, work_keys);
+  const JsonValue* weight = s.c.reader.required(at, "weight");
+  if (weight == nullptr) return;
+  const auto written = read_written(s.c, Place(at, *weight), Quantity::force);
+  if (!written) return;
+  data.weight = written->si;
+  if (data.test.gauge == Gauge::cmod) {
+    return s.c.problem(at, "needs deflections: the load does no work on the CMOD");
+  }
+  if (data.test.gauge == Gauge::deflection_mid_depth) {
+    s.c.warn(at,
+             "the load does its work on the deflection of the load point; with that at mid-depth G_F comes out a few "
+             "per cent too large");
+  }
+  const std::optional<WorkOfFracture> work = measured_work(data, out.measured);
+  if (!work->failure.empty()) s.c.problem(at, work->failure);
+}
+
 void read_notched(const SetContext& s, const Place& set, SpecimenShape shape, DataSet& out) {
   const Context& c = s.c;
-  c.reader.known_keys(set, set_keys({"geometry", "nuisance", "initial_slope"}, curve_keys));
+  c.reader.known_keys(set, set_keys({"geometry", "nuisance", "initial_slope", "work_of_fracture"}, curve_keys));
   const std::size_t before = c.reader.problems().size();
   NotchedData data;
   NotchedSpecimenTest& test = data.test;
@@ -255,6 +280,7 @@ void read_notched(const SetContext& s, const Place& set, SpecimenShape shape, Da
   for (const Violation& v : found.errors) c.problem(set, v.field + " = " + io::exact(v.value) + ": " + v.constraint);
   read_nuisances(s, set, data, out);
   judge_rise(s, set, data, out);
+  read_work(s, set, data, out);
   out.abscissa_axis = readable_axis(label_of(test.gauge), Quantity::length, out.abscissa.maxCoeff());
   out.value_axis = readable_axis("Load", Quantity::force, largest);
   out.test = std::move(data);
@@ -312,6 +338,12 @@ std::optional<ModulusEstimate> modulus_from_slope(const NotchedData& data, const
     e.failure = why.what();
   }
   return e;
+}
+
+std::optional<WorkOfFracture> measured_work(const NotchedData& data, const Eigen::VectorXd& loads) {
+  if (!data.weight) return std::nullopt;
+  const NotchedSpecimen& s = data.test.specimen;
+  return work_of_fracture(data.test.readings, loads, s.thickness * s.ligament(), *data.weight);
 }
 
 std::string model_warning(const NotchedData& /*data*/, const Parameters& p) { return mode_one_warning(p); }

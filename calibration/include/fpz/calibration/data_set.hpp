@@ -68,6 +68,12 @@ template <class Test>
   return std::nullopt;
 }
 
+/// Fracture energy from the area under a measured curve; nothing where the kind has none, or it is not wanted.
+template <class Test>
+[[nodiscard]] std::optional<WorkOfFracture> measured_work(const Test& /*test*/, const Eigen::VectorXd& /*measured*/) {
+  return std::nullopt;
+}
+
 /// What the kind assumes that the model would not do with these parameters; empty when there is nothing to say.
 template <class Test>
 [[nodiscard]] std::string model_warning(const Test& /*test*/, const Parameters& /*parameters*/) {

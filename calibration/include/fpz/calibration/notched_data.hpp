@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "fpz/calibration/notched_specimen.hpp"
+#include "fpz/calibration/work_of_fracture.hpp"
 
 namespace fpz::calibration {
 
@@ -23,6 +24,7 @@ struct NotchedData {
   Eigen::VectorXd held;              ///< values of the others, all places; empty: zero
   double slope_from = 0.1;           ///< part of the rise, over the peak load, that gives the initial slope
   double slope_to = 0.4;
+  std::optional<double> weight;  ///< N; where the work of fracture is wanted: see work_of_fracture()
 };
 
 /// Loads at the readings; `nuisance` has the fitted ones.
@@ -35,6 +37,9 @@ struct NotchedData {
 /// Young's modulus from the measured loads.
 [[nodiscard]] std::optional<ModulusEstimate> modulus_from_slope(const NotchedData& data, const Eigen::VectorXd& loads,
                                                                 const Parameters& parameters);
+
+/// G_F from the area under the measured curve, where it is wanted.
+[[nodiscard]] std::optional<WorkOfFracture> measured_work(const NotchedData& data, const Eigen::VectorXd& loads);
 
 /// See mode_one_warning().
 [[nodiscard]] std::string model_warning(const NotchedData& data, const Parameters& parameters);
