@@ -304,6 +304,15 @@ PointList points_up_to(TipPath& path, const Control& control, double reading) {
   return out;
 }
 
+/// Where a spline between two places has slope zero, falling.
+double top_between(const CubicSpline<Number>& curve, double low, double high) {
+  for (int k = 0; k < 60; ++k) {
+    const double middle = 0.5 * (low + high);
+    (curve.slope_at(middle).val > 0.0 ? low : high) = middle;
+  }
+  return low;
+}
+
 /// The curve as the machine records it.
 class RecordedCurve {
  public:
@@ -313,14 +322,8 @@ class RecordedCurve {
     const auto top = std::max_element(points.begin(), points.end(),
                                       [](const CurvePoint& a, const CurvePoint& b) { return a.load < b.load; });
     if (top == points.begin() || top + 1 == points.end()) return;
-    double low = (top - 1)->gauge.val;
-    double high = (top + 1)->gauge.val;
-    for (int k = 0; k < 60; ++k) {
-      const double middle = 0.5 * (low + high);
-      (curve_.slope_at(middle).val > 0.0 ? low : high) = middle;
-    }
-    peak_ = low;
-    peak_load_ = curve_.at(low);
+    peak_ = top_between(curve_, (top - 1)->gauge.val, (top + 1)->gauge.val);
+    peak_load_ = curve_.at(peak_);
   }
 
   /// Load at a reading and its derivatives. Between gauge and reading stands
@@ -404,6 +407,37 @@ MonotonicCurve monotonic_curve(const Condensation& condensation, const Parameter
       out.load[k] = curve.load_at(readings[k], nullptr);
     }
   }
+  return out;
+}
+
+MonotonicCurve peak_of_curve(const Condensation& condensation, const Parameters& parameters, bool derivatives) {
+  constexpr std::size_t beyond = 3;
+  constexpr std::size_t most = 2000;
+  MonotonicCurve out;
+  TipPath path(condensation, parameters, Gauge::cmod, derivatives);
+  const auto& points = path.points();
+  std::size_t top = 0;
+  while (points.size() < most && points.size() < top + 1 + beyond && path.advance()) {
+    for (std::size_t k = top + 1; k < points.size(); ++k) top = points[k].load > points[top].load ? k : top;
+  }
+  if (!path.starts_at_notch() || top == 0 || top + 1 >= points.size()) {
+    out.failure = "no peak of the load was found";
+    return out;
+  }
+  std::vector<Number> opening, load;
+  for (const CurvePoint& p : points) {
+    opening.push_back(p.notch_opening);
+    load.push_back(p.load);
+  }
+  const Number first = (load[1] - load[0]) / (opening[1] - opening[0]);
+  const double low = opening[top - 1].val;
+  const double high = opening[top + 1].val;
+  const CubicSpline<Number> curve(std::move(opening), std::move(load), first);
+  const Number peak = curve.at(top_between(curve, low, high));
+  out.load = Eigen::VectorXd::Constant(1, peak.val);
+  if (!derivatives) return out;
+  out.derivatives = Eigen::MatrixXd::Zero(1, curve_input_count);
+  out.derivatives.leftCols<path_input_count>() = peak.grad.transpose();
   return out;
 }
 

@@ -9,16 +9,6 @@
 #include "fpz/io/output.hpp"
 #include "fpz/io/problems.hpp"
 
-namespace fpz {
-
-template <>
-struct Words<calibration::SpecimenShape> {
-  static constexpr Word<calibration::SpecimenShape> list[] = {
-      {calibration::SpecimenShape::beam, "beam"}, {calibration::SpecimenShape::semicircular, "semicircular"}};
-};
-
-}  // namespace fpz
-
 namespace {
 
 namespace io = fpz::io;

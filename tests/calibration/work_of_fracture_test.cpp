@@ -96,8 +96,9 @@ TEST(WorkOfFracture, StandsInTheReportBesideTheFit) {
         "beam.json");
   };
   const Calibration all = calibrate(specification("deflection"));
-  const auto derived = std::find_if(all.derived.begin(), all.derived.end(),
-                                    [](const Derived& d) { return d.name.find("work of fracture") != std::string::npos; });
+  const auto derived = std::find_if(all.derived.begin(), all.derived.end(), [](const Derived& d) {
+    return d.name.find("work of fracture") != std::string::npos;
+  });
   ASSERT_NE(derived, all.derived.end());
   EXPECT_NEAR(derived->value, truth(), 0.03 * truth());
   EXPECT_NEAR(all.parameters.tensile_strength * all.parameters.delta0, truth(), 0.01 * truth());

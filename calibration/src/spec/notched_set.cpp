@@ -7,6 +7,7 @@
 #include "data_set_reader.hpp"
 #include "fpz/calibration/notched_specimen.hpp"
 #include "fpz/calibration/rise.hpp"
+#include "notched_geometry.hpp"
 #include "set_keys.hpp"
 
 namespace fpz::calibration::detail {
@@ -32,6 +33,8 @@ constexpr std::array<std::string_view, 6> nuisance_keys = {"value", "start", "un
 constexpr std::array<std::string_view, 2> prior_keys = {"mean", "deviation"};
 constexpr std::array<std::string_view, 2> slope_keys = {"from", "to"};
 constexpr std::array<std::string_view, 1> work_keys = {"weight"};
+
+}  // namespace
 
 NotchedSpecimen read_geometry(const SetContext& s, const Place& set, SpecimenShape shape) {
   const Context& c = s.c;
@@ -71,10 +74,16 @@ NotchedSpecimen read_geometry(const SetContext& s, const Place& set, SpecimenSha
   return g;
 }
 
-/// By the nominal bending stress 1.5 P (span - load_span)/(thickness ligament^2) that the largest load means.
-void judge_load(const SetContext& s, const Place& set, const NotchedSpecimen& g, double largest) {
+/// By the nominal bending stress 1.5 P (span - load_span)/(thickness ligament^2).
+Typical typical_load(const NotchedSpecimen& g) {
   const double per_load = 1.5 * g.arms() / (g.thickness * g.ligament() * g.ligament());
-  const Typical t = scaled(typical::bending_stress, Quantity::force, per_load);
+  return scaled(typical::bending_stress, Quantity::force, per_load);
+}
+
+namespace {
+
+void judge_load(const SetContext& s, const Place& set, const NotchedSpecimen& g, double largest) {
+  const Typical t = typical_load(g);
   const JsonValue* given = set.value().find("columns");
   if (given == nullptr) given = set.value().find("values");
   const Place columns(set, *given);

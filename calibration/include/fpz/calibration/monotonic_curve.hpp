@@ -31,4 +31,8 @@ struct MonotonicCurve {
 [[nodiscard]] MonotonicCurve monotonic_curve(const Condensation& condensation, const Parameters& parameters,
                                              const Control& control, const Eigen::VectorXd& readings, bool derivatives);
 
+/// The largest load of a first loading, as the one entry of the curve; a snap-back is no failure here.
+[[nodiscard]] MonotonicCurve peak_of_curve(const Condensation& condensation, const Parameters& parameters,
+                                           bool derivatives);
+
 }  // namespace fpz::calibration

@@ -21,6 +21,16 @@ enum class SpecimenShape {
   semicircular  ///< half disc, flat side down on two supports, notch from the flat side, load on top
 };
 
+}  // namespace fpz::calibration
+
+template <>
+struct fpz::Words<fpz::calibration::SpecimenShape> {
+  using K = calibration::SpecimenShape;
+  static constexpr Word<K> list[] = {{K::beam, "beam"}, {K::semicircular, "semicircular"}};
+};
+
+namespace fpz::calibration {
+
 /// Sizes of the elements. Halving the first three and the growth halves every element.
 struct MeshDensity {
   double ligament_fraction = 1.0 / 40.0;  ///< element along the ligament, over the ligament
