@@ -278,12 +278,6 @@ void require(bool holds, const std::string& otherwise) {
   if (!holds) throw std::invalid_argument(otherwise);
 }
 
-/// K^2/G.
-double energy_modulus(double young_modulus, double poisson_ratio, Setting setting) {
-  require(setting != Setting::three_d, "toughness and energy are related in plane strain or plane stress only");
-  return setting == Setting::plane_strain ? young_modulus / (1.0 - poisson_ratio * poisson_ratio) : young_modulus;
-}
-
 }  // namespace
 
 Prediction predict(const FractureEnergyTest& test, const Parameters& parameters, bool derivatives) {
@@ -302,16 +296,6 @@ Prediction predict(const FractureEnergyTest& test, const Parameters& parameters,
   out.values[0] = w.value.a;
   out.jacobian = w.value.v.transpose();
   return out;
-}
-
-double energy_from_toughness(double toughness, double young_modulus, double poisson_ratio, Setting setting) {
-  require(toughness >= 0.0, "a toughness must not be negative");
-  return toughness * toughness / energy_modulus(young_modulus, poisson_ratio, setting);
-}
-
-double toughness_from_energy(double energy, double young_modulus, double poisson_ratio, Setting setting) {
-  require(energy >= 0.0, "a fracture energy must not be negative");
-  return std::sqrt(energy * energy_modulus(young_modulus, poisson_ratio, setting));
 }
 
 double mode_one_delta0(double energy, double strength, std::optional<double> end) {

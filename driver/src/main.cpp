@@ -60,6 +60,7 @@ void plot_test(const io::Table& table, const PlotRequest& request) {
 /// Runs one test and writes all its files. Returns whether it came through.
 bool run_one(const Test& test, const fs::path& folder, const RunArguments& arguments) {
   io::make_writable_folder(folder);
+  io::print_notes(test.conversions);
   io::print_warnings(test.warnings);
   Result result;
   {

@@ -185,6 +185,7 @@ class FileReader {
     test.parameters = material->parameters;
     test.parameters.rve_length = length;
     test.material_name = material->name;
+    test.conversions = material->conversions;
     test.warnings = check_material(*material, test.parameters, test.setting, length_at, problems_);
   }
 

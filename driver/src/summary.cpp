@@ -13,6 +13,7 @@ Json material_json(const Test& test) {
   Json j = {{"name", test.material_name}};
   for (const ParameterInfo<double>& p : parameter_table<double>) j[std::string(p.name)] = test.parameters.*p.member;
   io::put_choices(j, test.parameters.choices);
+  if (!test.conversions.empty()) j["conversions"] = test.conversions;
   j["snap_back_length_mode1"] = snap_back_length(test.parameters, test.setting);
   return j;
 }

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "fpz/io/plausibility.hpp"
+#include "material_statements.hpp"
 
 namespace fpz::io {
 namespace {
@@ -18,6 +19,10 @@ constexpr std::string_view file_key = "file";
 std::vector<std::string_view> all_keys() {
   std::vector<std::string_view> keys;
   for (const ParameterInfo<double>& key : material_keys) keys.push_back(key.name);
+  for (const MaterialAlternative& a : material_alternatives()) {
+    keys.push_back(a.key);
+    keys.push_back(a.symbol);
+  }
   for (const std::string_view key : choice_keys()) keys.push_back(key);
   keys.insert(keys.end(), text_keys.begin(), text_keys.end());
   return keys;
@@ -55,29 +60,6 @@ void read_choice(const InputReader& reader, const Place& at, E& choice) {
   }
 }
 
-/// Reads parameter k from its value.
-bool read_parameter(const InputReader& reader, const Place& at, std::size_t k, MaterialFile& material) {
-  const std::optional<double> x = reader.number(at);
-  if (!x) return false;
-  material.parameters.*material_keys[k].member = *x;
-  material.locations[k] = {reader.file(), at.line(), at.path()};
-  return true;
-}
-
-/// What the object at `place` says in place of the file that it names.
-void replace_parts(const InputReader& reader, const Place& place, MaterialFile& material) {
-  std::vector<std::string_view> keys = all_keys();
-  keys.push_back(file_key);
-  reader.known_keys(place, keys, is_foreign);
-  check_texts(reader, place);
-  for (std::size_t k = 0; k < material_keys.size(); ++k) {
-    const JsonValue* value = place.value().find(material_keys[k].name);
-    if (value != nullptr) (void)read_parameter(reader, Place(place, *value), k, material);
-  }
-  read_choices(reader, place, material.parameters.choices);
-  read_name(reader, place, material.name);
-}
-
 std::string line_of(const Location& at, const Violation& v) {
   return at.path + " = " + exact(v.value) + ": " + v.constraint;
 }
@@ -106,15 +88,44 @@ std::optional<MaterialFile> read_material(const InputReader& reader, const Place
 
   MaterialFile material;
   material.name = std::move(name);
-  bool complete = true;
-  for (std::size_t k = 0; k < material_keys.size(); ++k) {
-    const JsonValue* value = reader.required(place, material_keys[k].name);
-    complete = value != nullptr && read_parameter(reader, Place(place, *value), k, material) && complete;
-  }
+  const bool numbers = detail::read_statements(reader, place, material);
+  const bool complete = detail::require_statements(reader, place);
+  if (numbers && complete) detail::resolve(material, reader.problems());
   read_choices(reader, place, material.parameters.choices);
   read_name(reader, place, material.name);
-  if (!complete || reader.problems().size() != before) return std::nullopt;
+  if (reader.problems().size() != before) return std::nullopt;
   return material;
+}
+
+std::optional<MaterialFile> read_difference(const InputReader& reader, const Place& place, const MaterialFile& base) {
+  const std::size_t before = reader.problems().size();
+  std::vector<std::string_view> keys = all_keys();
+  keys.push_back(file_key);
+  reader.known_keys(place, keys, is_foreign);
+  check_texts(reader, place);
+  MaterialFile given;
+  if (detail::read_statements(reader, place, given)) {
+    MaterialFile whole = base;
+    detail::replace_statements(given, whole);
+    given = std::move(whole);
+    detail::resolve(given, reader.problems());
+  }
+  read_choices(reader, place, given.parameters.choices);
+  read_name(reader, place, given.name);
+  if (reader.problems().size() != before) return std::nullopt;
+  return given;
+}
+
+void state_parameters(const MaterialFile& material, JsonValue& tree) {
+  std::erase_if(tree.items, [](const JsonValue& m) { return detail::is_statement(m.key); });
+  for (std::size_t k = 0; k < material_keys.size(); ++k) {
+    JsonValue& v = tree.items.emplace_back();
+    v.kind = Kind::number;
+    v.key = material_keys[k].name;
+    v.number = material.parameters.*material_keys[k].member;
+    v.text = exact(v.number);
+    v.line = material.locations[k].line;
+  }
 }
 
 std::optional<MaterialFile> material_at(const InputReader& reader, const Place& place, const MaterialLoader& load) {
@@ -132,11 +143,9 @@ std::optional<MaterialFile> material_at(const InputReader& reader, const Place& 
     reader.problem(name, "expected the name of a material file, found " + file->description());
     return std::nullopt;
   }
-  std::optional<MaterialFile> material = load(name);
-  const std::size_t before = reader.problems().size();
-  if (material) replace_parts(reader, place, *material);
-  if (reader.problems().size() != before) return std::nullopt;
-  return material;
+  const std::optional<MaterialFile> base = load(name);
+  if (!base) return std::nullopt;
+  return read_difference(reader, place, *base);
 }
 
 std::optional<MaterialFile> load_material(const std::filesystem::path& file, const std::string& shown_as,
@@ -196,7 +205,7 @@ std::vector<std::string> check_material(const MaterialFile& material, const Para
   for (const Violation& v : result.errors) {
     if (const Location* at = location(v.field)) problems.add(at->file, at->line, line_of(*at, v));
   }
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings = material.warnings;
   for (const Violation& v : result.warnings) {
     const Location* at = location(v.field);
     if (at == nullptr) continue;

@@ -12,6 +12,10 @@ void print_warnings(const std::vector<std::string>& warnings) {
   for (const std::string& w : warnings) std::cerr << "warning: " << w << "\n";
 }
 
+void print_notes(const std::vector<std::string>& notes) {
+  for (const std::string& n : notes) std::cerr << "note: " << n << "\n";
+}
+
 std::string clock_text(double seconds) {
   const auto s = std::llround(seconds);
   char text[40];

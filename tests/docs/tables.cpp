@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "blocks.hpp"
+#include "fpz/io/material_file.hpp"
 #include "fpz/law/softening.hpp"
 #include "fpz/parameters.hpp"
 #ifdef FPZ_DOCS_DRIVER
@@ -44,6 +45,16 @@ std::string parameters() {
   visit_choices(choices, [&table](const char* key, auto choice) {
     table += row({code(key), "", "", all_words<decltype(choice)>() + "; may be left out: " + to_string(choice)});
   });
+  return table;
+}
+
+/// What may be stated in place of parameters.
+std::string material_alternatives() {
+  std::string table = heading({"key", "or", "quantity", "unit", "what follows"});
+  for (const io::MaterialAlternative& a : io::material_alternatives()) {
+    table += row({code(a.key), code(a.symbol), std::string(a.meaning), std::string(si_unit(a.typical.quantity)),
+                  std::string(a.formula)});
+  }
   return table;
 }
 
@@ -118,6 +129,7 @@ constexpr std::string (*sph_history_table)() = nullptr;
 
 constexpr NamedTable tables[] = {
     {"parameters", parameters},
+    {"material-alternatives", material_alternatives},
     {"parameter-plausibility", parameter_plausibility},
     {"driver-history", driver_history_table},
     {"method-options", method_options_table},

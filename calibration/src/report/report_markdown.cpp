@@ -89,6 +89,8 @@ class MarkdownReport {
     out_ << "\n| fixed | value | from |\n| --- | --- | --- |\n";
     for (std::size_t k = 0; k < parameter_info.size(); ++k) fixed_row(k);
     out_ << "| `density` | " << digits(spec_.density) << " kg/m³ | specification |\n\n";
+    for (const std::string& conversion : spec_.conversions) out_ << "- " << conversion << "\n";
+    if (!spec_.conversions.empty()) out_ << '\n';
   }
 
   void parameter_row(std::size_t k) {

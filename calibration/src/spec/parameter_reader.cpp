@@ -52,6 +52,8 @@ class ParameterReader {
     if (!base) return;
     base_name_ = base->name;
     spec_.choices = base->parameters.choices;
+    spec_.conversions = base->conversions;
+    c_.warnings.insert(c_.warnings.end(), base->warnings.begin(), base->warnings.end());
     for (std::size_t k = 0; k < io::material_keys.size(); ++k) {
       const std::string_view name = io::material_keys[k].name;
       const double x = base->parameters.*io::material_keys[k].member;

@@ -8,16 +8,6 @@ namespace {
 using Kind = JsonValue::Kind;
 constexpr std::size_t longest_name = 200;
 
-std::optional<Unit> unit_named(const Context& c, const Place& at, Quantity quantity) {
-  const auto name = c.reader.text(at, longest_name);
-  if (!name) return std::nullopt;
-  if (const std::optional<Unit> known = io::find_unit(quantity, *name)) return known;
-  std::vector<std::string_view> names;
-  for (const Unit& unit : units(quantity)) names.push_back(unit.name);
-  c.problem(at, "unknown unit " + io::in_quotes(*name) + io::suggestion(*name, names));
-  return std::nullopt;
-}
-
 }  // namespace
 
 void Context::judge(const Place& at, std::string_view what, const Written& value, const Typical& typical) const {
@@ -27,26 +17,12 @@ void Context::judge(const Place& at, std::string_view what, const Written& value
 }
 
 std::optional<Unit> read_unit(const Context& c, const Place& object, Quantity quantity) {
-  const JsonValue* name = object.value().is(Kind::object) ? object.value().find("unit") : nullptr;
-  if (name == nullptr) return units(quantity).front();
-  return unit_named(c, Place(object, *name), quantity);
+  return io::read_unit(c.reader, object, quantity);
 }
 
 std::optional<Written> read_written(const Context& c, const Place& at, Quantity quantity,
                                     const std::vector<std::string_view>& also) {
-  if (!at.value().is(Kind::object)) {
-    const auto x = c.reader.number(at);
-    if (!x) return std::nullopt;
-    return Written{*x, *x, si_unit(quantity)};
-  }
-  std::vector<std::string_view> keys = {"value", "unit"};
-  keys.insert(keys.end(), also.begin(), also.end());
-  c.reader.known_keys(at, keys);
-  const auto unit = read_unit(c, at, quantity);
-  const JsonValue* value = c.reader.required(at, "value");
-  const auto x = value != nullptr ? c.reader.number(Place(at, *value)) : std::nullopt;
-  if (!unit || !x) return std::nullopt;
-  return Written{*x * unit->factor, *x, unit->name};
+  return io::read_written(c.reader, at, quantity, also);
 }
 
 std::optional<double> read_judged(const Context& c, const Place& at, const Typical& typical) {

@@ -10,6 +10,7 @@
 
 #include "fpz/io/input_reader.hpp"
 #include "fpz/io/plausibility.hpp"
+#include "fpz/io/quantity_reader.hpp"
 #include "fpz/words.hpp"
 
 namespace fpz::calibration::detail {

@@ -71,6 +71,7 @@ void report_pictures(const PictureOutcome& pictures, const fs::path& folder) {
 
 int run(const Arguments& a) {
   const Scene scene = read_scene(a.scene, a.set);
+  io::print_notes(scene.conversions);
   io::print_warnings(scene.warnings);
   RunRequest request;
   request.folder = a.out;
@@ -104,6 +105,7 @@ int run(const Arguments& a) {
 
 int check(const Arguments& a) {
   const Scene scene = read_scene(a.scene, a.set);
+  io::print_notes(scene.conversions);
   io::print_warnings(scene.warnings);
   const Specimen specimen = make_specimen(scene);
   io::print_warnings(specimen.warnings);

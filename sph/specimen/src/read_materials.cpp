@@ -22,10 +22,12 @@ std::optional<io::MaterialFile> read_and_complete(const InputReader& r, const Pl
     if (!file) return std::nullopt;
     return io::read_material(InputReader(file->shown_as, r.limits(), r.problems()), Place(file->root), file->stem);
   });
-  if (!file) return material;
-  if (given.is(JsonValue::Kind::object)) replace_members(file->root, given);
-  file->root.key = given.key;
-  given = std::move(file->root);
+  if (file) {
+    if (given.is(JsonValue::Kind::object)) replace_members(file->root, given);
+    file->root.key = given.key;
+    given = std::move(file->root);
+  }
+  if (material) io::state_parameters(*material, given);
   return material;
 }
 
@@ -53,13 +55,22 @@ std::optional<io::MaterialFile> read_further(const InputReader& r, const JsonVal
   JsonValue& given = *member(entry, "material");
   const Place top(root), array(top, list), owner(array, entry), place(owner, given);
   if (!given.is(JsonValue::Kind::object) || given.find("file") != nullptr) return read_and_complete(r, place, given);
-  if (!is_complete(given)) {
-    JsonValue whole = parameters_alone(first);
-    replace_members(whole, given);
-    whole.key = given.key;
-    given = std::move(whole);
+  if (is_complete(given)) {
+    const auto own = io::read_material(r, place, name_of(entry));
+    if (own) io::state_parameters(*own, given);
+    return own;
   }
-  return io::read_material(r, place, name_of(entry));
+  auto base = io::read_material(r, Place(top, first), name_of(entry));
+  if (!base) return std::nullopt;
+  base->name = name_of(entry);
+  base->warnings.clear();  // said of the first already
+  auto material = io::read_difference(r, place, *base);
+  JsonValue whole = parameters_alone(first);
+  replace_members(whole, given);
+  whole.key = given.key;
+  given = std::move(whole);
+  if (material) io::state_parameters(*material, given);
+  return material;
 }
 
 }  // namespace
@@ -69,6 +80,13 @@ std::optional<io::MaterialFile> read_material_of_scene(const InputReader& r, Jso
   if (r.required(top, "material") == nullptr) return std::nullopt;
   JsonValue& given = *member(root, "material");
   return read_and_complete(r, Place(top, given), given);
+}
+
+void note_conversions(const io::MaterialFile& material, Scene& scene) {
+  for (const std::string& c : material.conversions) {
+    const auto& known = scene.conversions;
+    if (std::find(known.begin(), known.end(), c) == known.end()) scene.conversions.push_back(c);
+  }
 }
 
 std::vector<std::size_t> add_materials(const InputReader& r, JsonValue& root, std::string_view array,
@@ -82,6 +100,7 @@ std::vector<std::size_t> add_materials(const InputReader& r, JsonValue& root, st
     if (first == nullptr || !entry.is(JsonValue::Kind::object) || entry.find("material") == nullptr) continue;
     const auto material = read_further(r, root, *first, *list, entry);
     if (!material) continue;
+    note_conversions(*material, scene);
     const std::vector<std::string> doubts =
         io::check_material(*material, material->parameters, scene.setting, std::nullopt, r.problems());
     if (may_crack) scene.warnings.insert(scene.warnings.end(), doubts.begin(), doubts.end());

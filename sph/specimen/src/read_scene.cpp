@@ -120,6 +120,7 @@ Scene read_tree(JsonValue& root, const std::string& origin, const io::ReadLimits
   if (material) {
     scene.parameters = material->parameters;
     scene.material_name = material->name;
+    note_conversions(*material, scene);
     for (const std::string& w :
          io::check_material(*material, scene.parameters, scene.setting, std::nullopt, problems)) {
       if (std::find(scene.warnings.begin(), scene.warnings.end(), w) == scene.warnings.end()) {

@@ -345,6 +345,7 @@ std::string summary_text(const SummaryInput& in) {
                                 {"after_peak", number(f.kinetic_ratio_after)}};
   j["load_support_imbalance"] = number(f.imbalance);
   j["material"] = material_json(in.scene.material_name, in.scene.parameters);
+  if (!in.scene.conversions.empty()) j["conversions"] = in.scene.conversions;
   if (!in.scene.further_materials.empty()) j["materials"] = materials_json(in.scene, in.specimen.setup);
   if (!in.scene.interfaces.empty()) j["interfaces"] = interfaces_json(in);
   if (in.scene.strength_field) j["strength_field"] = strength_json(in);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "fpz/calibration/prediction.hpp"
+#include "fpz/io/material_conversion.hpp"
 
 namespace fpz::calibration {
 
@@ -55,13 +56,8 @@ struct FractureEnergyTest {
 
 // --- toughness ---
 
-/// G = K^2 (1 - nu^2)/E in plane strain, K^2/E in plane stress. K in Pa sqrt(m), G in J/m^2. Throws
-/// std::invalid_argument for a negative K or a setting without such a relation (3-D).
-[[nodiscard]] double energy_from_toughness(double toughness, double young_modulus, double poisson_ratio,
-                                           Setting setting);
-
-/// The inverse: K in Pa sqrt(m) from G in J/m^2.
-[[nodiscard]] double toughness_from_energy(double energy, double young_modulus, double poisson_ratio, Setting setting);
+using io::energy_from_toughness;
+using io::toughness_from_energy;
 
 // --- delta0 ---
 

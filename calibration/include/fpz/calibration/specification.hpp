@@ -45,9 +45,10 @@ struct Specification {
   std::array<ParameterSetting, parameter_count> parameters;  ///< in the order of Parameter
   std::vector<DataSet> data;
   std::vector<ReferenceValue> references;
-  std::vector<std::string> profiles;  ///< names of fitted parameters
-  FitOptions options;                 ///< without the profiles, which make_problem's caller numbers
-  std::vector<std::string> warnings;  ///< doubtful but admissible; one line each, with file and line
+  std::vector<std::string> profiles;     ///< names of fitted parameters
+  FitOptions options;                    ///< without the profiles, which make_problem's caller numbers
+  std::vector<std::string> conversions;  ///< parameters that follow from other quantities of the material, in words
+  std::vector<std::string> warnings;     ///< doubtful but admissible; one line each, with file and line
 
   [[nodiscard]] const ParameterSetting& operator[](Parameter p) const {
     return parameters[static_cast<std::size_t>(p)];

@@ -90,7 +90,8 @@ struct Test {
   Setting setting = Setting::plane_strain;
   Options options;
   std::vector<Stage> stages;
-  std::vector<std::string> warnings;  ///< doubtful but admissible values; one line each, with file and line
+  std::vector<std::string> conversions;  ///< parameters that follow from other quantities of the material, in words
+  std::vector<std::string> warnings;     ///< doubtful but admissible values; one line each, with file and line
 };
 
 struct PathFile {

@@ -12,12 +12,14 @@
 #include <vector>
 
 #include "fpz/io/input_reader.hpp"
+#include "fpz/io/plausibility.hpp"
 #include "fpz/law/softening.hpp"
 #include "fpz/parameters.hpp"
 
 namespace fpz::io {
 
-/// The parameters that a material file states; all are required.
+/// The parameters that a material file states, each itself or by quantities from which it follows (see
+/// material_alternatives).
 inline constexpr std::span<const ParameterInfo<double>> material_keys(parameter_table<double>.data(),
                                                                       material_parameter_count);
 
@@ -28,16 +30,48 @@ struct Location {
   std::string path;
 };
 
+/// A quantity that may be stated in place of parameters.
+struct MaterialAlternative {
+  std::string_view key;
+  std::string_view symbol;   ///< also taken as the key
+  std::string_view meaning;  ///< in words
+  std::string_view formula;  ///< what follows, with its source
+  Typical typical;
+};
+
+/// The list of them. Elastic constants: any two of four; the others stand for one parameter each.
+[[nodiscard]] std::span<const MaterialAlternative> material_alternatives();
+
+/// One quantity as stated.
+struct MaterialStatement {
+  std::string_view key;  ///< of material_keys or material_alternatives
+  Written value;
+  Location at;
+  double depth = 0.0;                       ///< m, of a beam whose bending strength it is
+  Setting setting = Setting::plane_strain;  ///< of a toughness
+};
+
 /// What a material file states, with the places of its values. (fpz::Material is what the model makes of parameters.)
 struct MaterialFile {
   Parameters parameters;  ///< rve_length is 0
   std::string name;
   std::array<Location, material_parameter_count> locations;  ///< in the order of material_keys
+  std::vector<MaterialStatement> statements;
+  std::vector<std::string> conversions;  ///< which parameters follow from other quantities, how, and their values
+  std::vector<std::string> warnings;     ///< doubtful values of those quantities
 };
 
 /// The material at `place`; nothing when a value is missing or of a wrong type. `name` is used when it has none.
 [[nodiscard]] std::optional<MaterialFile> read_material(const InputReader& reader, const Place& place,
                                                         std::string name);
+
+/// The material at `place` where it states only what differs from `base`: a quantity replaces those that determine the
+/// same parameter. Nothing when there is a problem.
+[[nodiscard]] std::optional<MaterialFile> read_difference(const InputReader& reader, const Place& place,
+                                                          const MaterialFile& base);
+
+/// Puts the parameters themselves in place of what the tree of a material states.
+void state_parameters(const MaterialFile& material, JsonValue& tree);
 
 /// Reads the material file that the string at a place names; what is wrong is a problem.
 using MaterialLoader = std::function<std::optional<MaterialFile>(const Place& name)>;

@@ -10,6 +10,9 @@ namespace fpz::io {
 /// One line "warning: ..." each, on stderr.
 void print_warnings(const std::vector<std::string>& warnings);
 
+/// What a person should know and that is not doubtful.
+void print_notes(const std::vector<std::string>& notes);
+
 /// Seconds as 1:05 or 2:00:05.
 [[nodiscard]] std::string clock_text(double seconds);
 

@@ -134,7 +134,8 @@ struct Scene {
   StopRules stop;             ///< of the last stage; its time is that of all stages
   OutputRules output;
 
-  std::vector<std::string> warnings;  ///< doubtful but admissible
+  std::vector<std::string> warnings;     ///< doubtful but admissible
+  std::vector<std::string> conversions;  ///< parameters of materials that follow from other quantities, in words
   std::string text;  ///< the complete scene as JSON, overrides applied, material inline: reads back as the same scene
 };
 
