@@ -3,13 +3,17 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <iostream>
+#include <map>
+#include <optional>
 #include <stdexcept>
 
 #include "fpz/calibration/calibration.hpp"
+#include "fpz/calibration/quick_specification.hpp"
 #include "fpz/calibration/report.hpp"
 #include "fpz/io/output.hpp"
 #include "fpz/io/terminal.hpp"
@@ -68,6 +72,7 @@ class FitProgressLine {
 
 struct Arguments {
   std::string file;
+  std::optional<QuickFit> quick;  ///< in place of the file
   std::string out;
   bool force = false;
   bool check = false;
@@ -79,6 +84,7 @@ struct Arguments {
 int check(const Specification& spec) {
   const FitProblem problem = make_problem(spec);
   require_valid(problem);
+  io::print_notes(spec.conversions);
   io::print_warnings(spec.warnings);
   std::cout << spec.name << ": ok\n";
   for (const FitParameter& p : problem.parameters) {
@@ -93,13 +99,106 @@ int check(const Specification& spec) {
   return 0;
 }
 
+/// The specification in the file, or one made of the arguments of a sub-command, which is written where its results go.
+Specification specification_of(const Arguments& arguments) {
+  if (!arguments.quick) return read_specification(arguments.file);
+  const std::filesystem::path folder = arguments.out;
+  const std::filesystem::path file = folder / "specification.json";
+  const std::string text = quick_specification(*arguments.quick, folder);
+  if (arguments.check) return parse_specification(text, file);
+  io::make_writable_folder(folder);  // names of data files are relative to it
+  io::require_absent({file}, arguments.force);
+  Specification spec = parse_specification(text, file);
+  io::write_text(file, text, true);
+  return spec;
+}
+
+/// What the sub-commands for bending tests have in common.
+class BendingCommand {
+ public:
+  BendingCommand(CLI::App& app, const char* name, const char* what, const char* kind,
+                 std::initializer_list<std::pair<const char*, const char*>> lengths, const char* example)
+      : command_(app.add_subcommand(name, what)) {
+    fit_.kind = kind;
+    command_->fallthrough();
+    command_->add_option("CURVE.csv", data_, "the measured curve, in any of the notations of docs/calibration.md")
+        ->required();
+    for (const auto& [key, meaning] : lengths) {
+      std::string option = std::string("--") + key;
+      std::replace(option.begin(), option.end(), '_', '-');
+      const bool needed = std::string_view(meaning).starts_with("!");
+      auto* o =
+          command_->add_option(option, lengths_[key], std::string(meaning + (needed ? 1 : 0)) + ", such as 100mm");
+      if (needed) o->required();
+    }
+    gauge("cmod", "crack mouth opening");
+    gauge("deflection", "deflection of the load point, which needs --roller-width");
+    command_->add_option("--load", fit_.load.column, "name or number of the column with the load; found if unique");
+    command_->add_option("--load-unit", fit_.load.unit, "its unit, where the file does not state it");
+    command_->add_option("--load-scale", fit_.load.scale, "factor of its numbers: -1 turns the sign");
+    command_->add_option("--young-modulus", fit_.young_modulus, "such as 30GPa; fitted when left out");
+    command_->add_option("--poisson-ratio", fit_.poisson_ratio, "0.2 when left out");
+    command_->add_option("--softening", fit_.softening, "softening law, such as bilinear");
+    command_->add_option("--setting", fit_.setting, "plane_strain or plane_stress");
+    word("--separator", fit_.table.separator, "of the columns");
+    word("--decimal", fit_.table.decimal, "mark of the numbers");
+    word("--encoding", fit_.table.encoding, "of the file");
+    command_->add_option("--skip-rows", fit_.table.skip_rows, "lines before the one with the column names");
+    command_->add_option("--rows", fit_.table.rows, "read at most so many rows");
+    command_->footer(std::string("Example:\n  ") + example +
+                     "\nE (unless stated), tensile strength and delta0 are fitted; the specification that was used is\n"
+                     "written as specification.json, to be changed and run by itself.");
+  }
+
+  /// The test that was given, when this was the sub-command.
+  [[nodiscard]] std::optional<QuickFit> parsed() const {
+    if (!command_->parsed()) return std::nullopt;
+    QuickFit fit = fit_;
+    fit.data = data_;
+    for (const auto& [key, text] : lengths_) {
+      if (!text.empty()) fit.lengths.emplace_back(key, text);
+    }
+    fit.gauge = *deflection_ ? "deflection" : "cmod";
+    fit.reading = *deflection_ ? readings_.at("deflection") : readings_.at("cmod");
+    return fit;
+  }
+
+ private:
+  void gauge(const std::string& name, const std::string& what) {
+    QuickColumn& c = readings_[name];
+    auto* column = command_->add_option("--" + name, c.column, "name or number of the column with the " + what);
+    command_->add_option("--" + name + "-unit", c.unit, "its unit, where the file does not state it");
+    command_->add_option("--" + name + "-scale", c.scale, "factor of its numbers");
+    if (name == "deflection") deflection_ = column;
+  }
+
+  template <fpz::Worded E>
+  void word(const char* option, std::optional<E>& target, const std::string& what) {
+    command_->add_option_function<std::string>(
+        option,
+        [&target, option](const std::string& text) {
+          target = fpz::from_word<E>(text);
+          if (!target) throw CLI::ValidationError(option, "must be " + fpz::all_words<E>());
+        },
+        what + ": " + fpz::all_words<E>());
+  }
+
+  CLI::App* command_;
+  CLI::Option* deflection_ = nullptr;
+  QuickFit fit_;
+  std::string data_;
+  std::map<std::string, std::string> lengths_;
+  std::map<std::string, QuickColumn> readings_;
+};
+
 int run(const Arguments& arguments) {
-  Specification spec = read_specification(arguments.file);
+  Specification spec = specification_of(arguments);
   if (arguments.starts > 0) spec.options.starts = arguments.starts;
   if (arguments.seed >= 0) spec.options.seed = static_cast<std::uint64_t>(arguments.seed);
   if (arguments.check) return check(spec);
   io::make_writable_folder(arguments.out);  // before the work, not after it
   io::require_absent(report_files(spec, arguments.out, arguments.pictures), arguments.force);
+  io::print_notes(spec.conversions);
   Calibration result;
   {
     FitProgressLine line;
@@ -123,9 +222,9 @@ int main(int argc, char** argv) try {
   CLI::App app{"Fits the parameters of the process zone model to laboratory data.", "fpz-calibrate"};
   app.set_version_flag("--version", "fpz-calibrate " FPZ_VERSION);
   Arguments arguments;
-  app.add_option("SPEC.json", arguments.file, "specification: parameters, data sets, options")->required();
+  app.add_option("SPEC.json", arguments.file, "specification: parameters, data sets, options");
   auto* out = app.add_option("-o,--out", arguments.out,
-                             "folder for material.json, report.json, report.md, curves and pictures");
+                             "folder for material.json, report.html, report.md, report.json, curves and pictures");
   app.add_flag("--check", arguments.check, "only read and check the specification and its data")->excludes(out);
   app.add_flag("--force", arguments.force, "replace files that exist");
   app.add_flag("!--no-plots", arguments.pictures, "draw no pictures");
@@ -133,8 +232,29 @@ int main(int argc, char** argv) try {
       ->check(CLI::Range(1, 1000));
   app.add_option("--seed", arguments.seed, "seed of the starts, in place of the specification's")
       ->check(CLI::Range(std::int64_t{0}, std::int64_t{2'000'000'000}));
+  const BendingCommand beam(
+      app, "beam", "Fit a notched beam from its curve and lengths, without a specification", "notched_beam",
+      {{"depth", "!depth of the beam"},
+       {"span", "!distance of the supports"},
+       {"notch", "!length of the notch"},
+       {"thickness", "!thickness"},
+       {"length", "length of the beam"},
+       {"roller_width", "width of the loaded line"},
+       {"clip_gauge_distance", "distance of the clip gauge from the surface"}},
+      "fpz-calibrate beam --depth 100mm --span 300mm --notch 50mm --thickness 100mm curve.csv -o out/beam");
+  const BendingCommand semicircular(
+      app, "semicircular", "Fit a semicircular specimen in bending the same way", "semicircular_bend",
+      {{"radius", "!radius of the half disc"},
+       {"span", "!distance of the supports"},
+       {"notch", "!length of the notch"},
+       {"thickness", "!thickness"},
+       {"roller_width", "width of the loaded line"},
+       {"clip_gauge_distance", "distance of the clip gauge from the surface"}},
+      "fpz-calibrate semicircular --radius 50mm --span 60mm --notch 20mm --thickness 30mm curve.csv -o out/scb");
+  app.require_subcommand(0, 1);
   app.footer(
       "Examples:\n"
+      "  fpz-calibrate beam --depth 100mm --span 300mm --notch 50mm --thickness 100mm curve.csv -o out/beam\n"
       "  fpz-calibrate data/calibration/table1.json -o out/table1\n"
       "  fpz-calibrate data/calibration/gregoire_d50_modulus.json -o out/d50\n"
       "  fpz-calibrate my_rock.json --check\n"
@@ -145,6 +265,10 @@ int main(int argc, char** argv) try {
   try {
     app.parse(argc, argv);
     if (!arguments.check && arguments.out.empty()) throw CLI::RequiredError("--out");
+    for (const BendingCommand* command : {&beam, &semicircular}) {
+      if (auto fit = command->parsed()) arguments.quick = std::move(fit);
+    }
+    if (arguments.quick.has_value() != arguments.file.empty()) throw CLI::RequiredError("SPEC.json (or a sub-command)");
   } catch (const CLI::ParseError& e) {
     return app.exit(e) == 0 ? 0 : 2;
   }

@@ -3,6 +3,7 @@
 #include "fpz/calibration/report.hpp"
 #include "fpz/driver/run.hpp"
 #include "fpz/io/gnuplot.hpp"
+#include "fpz/io/html.hpp"
 #include "fpz/io/output.hpp"
 #include "fpz/io/problems.hpp"
 #include "pictures.hpp"
@@ -36,7 +37,7 @@ std::string curve_csv(const Calibration& all, const Comparison& c) {
 
 std::vector<fs::path> report_files(const Specification& spec, const fs::path& folder, bool pictures) {
   std::vector<fs::path> files;
-  for (const char* name : {"material.json", "material_unusable.json", "report.json", "report.md"}) {
+  for (const char* name : {"material.json", "material_unusable.json", "report.json", "report.md", "report.html"}) {
     files.push_back(folder / name);
   }
   for (const DataSet& set : spec.data) files.push_back(folder / curve_name(set));
@@ -69,12 +70,10 @@ ReportFiles write_report(const Calibration& all, const ReportOptions& options) {
   for (const Comparison& c : all.comparisons) {
     text(curve_name(all.specification.data[c.data_set]), curve_csv(all, c));
   }
-  if (!options.pictures) return written;
-  if (!drawn) {
+  if (options.pictures && !drawn) {
     written.warnings.emplace_back("no pictures: gnuplot is not installed (apt-get install gnuplot-nox)");
-    return written;
   }
-  for (const io::Picture& picture : detail::draw_pictures(all)) {
+  for (const io::Picture& picture : drawn ? detail::draw_pictures(all) : std::vector<io::Picture>()) {
     if (options.between) options.between();
     try {
       picture.write(options.folder, options.force);
@@ -83,6 +82,7 @@ ReportFiles write_report(const Calibration& all, const ReportOptions& options) {
       written.warnings.emplace_back(e.what());
     }
   }
+  text("report.html", io::html_page(all.specification.name, report_markdown(all, drawn), options.folder));
   return written;
 }
 
