@@ -22,7 +22,7 @@ expect(0 "strengths: strength, 7 points, fitted" "${spec}" --check)
 expect_file(FALSE x)
 
 expect(0 "friction_angle_deg" "${spec}" -o "${WORK}/strength" --no-plots --starts 2)
-expect_file(TRUE strength/material.json strength/report.json strength/report.md strength/curve_strengths.csv)
+expect_file(TRUE strength/material.json strength/report.json strength/report.md strength/report.html strength/curve_strengths.csv)
 expect_file(FALSE strength/material_unusable.json strength/residuals.png)
 expect(2 "--force" "${spec}" -o "${WORK}/strength" --no-plots)
 expect(0 "" "${spec}" -o "${WORK}/strength" --no-plots --force --starts 2)
@@ -59,6 +59,14 @@ file(WRITE "${WORK}/slip.json" "{\"material\": \"johnstone.json\", \"fit\": [\"d
 expect(2 "slip.json:2: parameters.tensile_strength" "${WORK}/slip.json" -o "${WORK}/slip")
 expect(2 "3.9 MPa was probably meant" "${WORK}/slip.json" --check)
 expect_file(FALSE slip)
+
+# One command from a curve and its lengths, and the specification that it used.
+set(beam beam --depth 50mm --span 125mm --notch 25mm --thickness 50mm
+    "${DATA}/lab/Gregoire2013_D50_halfnotch_envelope.csv" --cmod 1 --cmod-unit mm --load 3 --load-unit N)
+expect(0 "notched_beam" ${beam} --check)
+expect(2 "say the unit" beam --depth 50 --span 125mm --notch 25mm --thickness 50mm x.csv -o "${WORK}/x")
+expect(2 "" beam --depth 50mm -o "${WORK}/x")
+expect_file(FALSE x)
 
 # A file where the folder should be.
 file(WRITE "${WORK}/file" "")

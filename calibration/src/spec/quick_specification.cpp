@@ -133,10 +133,11 @@ void put_table_options(Json& j, const io::CsvOptions& o) {
 }  // namespace
 
 std::string quick_specification(const QuickFit& fit, const fs::path& folder) {
+  const Json geometry = geometry_json(fit);
   const io::Table table = io::read_csv(fit.data, fit.table);
   const fs::path here = fs::absolute(folder.empty() ? fs::path(".") : folder).lexically_normal();
   const std::string stem = fit.data.stem().string();
-  Json set = {{"name", stem.substr(0, 100)}, {"kind", fit.kind}, {"geometry", geometry_json(fit)}};
+  Json set = {{"name", stem.substr(0, 100)}, {"kind", fit.kind}, {"geometry", geometry}};
   set["file"] = fs::absolute(fit.data).lexically_normal().lexically_relative(here).generic_string();
   put_table_options(set, fit.table);
   set["columns"] = {{fit.gauge, column_json(table, fit.gauge, fit.reading)},
