@@ -78,7 +78,8 @@ struct Problem {
 
   explicit Problem(const sph::RunSetup<2>& setup)
       : run(setup, 1.0),
-        lists(sph::detail::find_neighbours<2>(run.particles.start, run.particles.count, sph::kernel_support * run.h)),
+        lists(sph::detail::find_neighbours<2>(run.team, run.particles.start, run.particles.count,
+                                              sph::kernel_support * run.h)),
         equations(sph::detail::normal_equations(run, lists)) {}
 };
 

@@ -33,7 +33,7 @@ std::array<std::int64_t, 3> cell_of(const Fields<Dim>& position, std::size_t i, 
 }  // namespace
 
 template <int Dim>
-NeighbourLists find_neighbours(const Fields<Dim>& position, std::size_t count, double reach) {
+NeighbourLists find_neighbours(Team& team, const Fields<Dim>& position, std::size_t count, double reach) {
   const double inverse = 1.0 / reach;
   std::vector<std::pair<std::uint64_t, int>> cells(count);
   for (std::size_t i = 0; i < count; ++i) {
@@ -41,10 +41,7 @@ NeighbourLists find_neighbours(const Fields<Dim>& position, std::size_t count, d
   }
   std::sort(cells.begin(), cells.end());
   NeighbourLists lists(count);
-  const auto size = static_cast<std::ptrdiff_t>(count);
-#pragma omp parallel for schedule(static)
-  for (std::ptrdiff_t n = 0; n < size; ++n) {
-    const auto i = static_cast<std::size_t>(n);
+  const auto find = [&](std::size_t i) {
     const std::array<std::int64_t, 3> own = cell_of<Dim>(position, i, inverse);
     std::vector<int>& list = lists[i];
     for (std::int64_t dz = Dim == 3 ? -1 : 0; dz <= (Dim == 3 ? 1 : 0); ++dz) {
@@ -63,7 +60,12 @@ NeighbourLists find_neighbours(const Fields<Dim>& position, std::size_t count, d
       }
     }
     std::sort(list.begin(), list.end());
-  }
+  };
+  constexpr std::size_t piece = 1024;
+  team.run(static_cast<std::int64_t>((count + piece - 1) / piece), [&](std::int64_t k) {
+    const std::size_t first = static_cast<std::size_t>(k) * piece;
+    for (std::size_t i = first; i < std::min(first + piece, count); ++i) find(i);
+  });
   return lists;
 }
 
@@ -139,8 +141,8 @@ Bonds<Dim> pack(const NeighbourLists& lists, std::size_t padded, bool with_close
   return bonds;
 }
 
-template NeighbourLists find_neighbours<2>(const Fields<2>&, std::size_t, double);
-template NeighbourLists find_neighbours<3>(const Fields<3>&, std::size_t, double);
+template NeighbourLists find_neighbours<2>(Team&, const Fields<2>&, std::size_t, double);
+template NeighbourLists find_neighbours<3>(Team&, const Fields<3>&, std::size_t, double);
 template void separate<2>(NeighbourLists&, const std::vector<Cut<2>>&, const Fields<2>&);
 template void drop_without_share<2>(NeighbourLists&, const std::vector<Cut<2>>&, const Fields<2>&, double);
 template std::vector<std::size_t> curve_order<2>(const std::vector<Vec<double, 2>>&, double);

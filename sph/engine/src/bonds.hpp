@@ -7,6 +7,7 @@
 
 #include "fpz/sph/cut.hpp"
 #include "fpz/sph/particles.hpp"
+#include "team.hpp"
 
 namespace fpz::sph::detail {
 
@@ -16,7 +17,7 @@ using NeighbourLists = std::vector<std::vector<int>>;
 /// All pairs closer than `reach`, by a cell list over sorted cell keys (memory does not grow with the empty space
 /// between pieces). Non-finite positions find nothing.
 template <int Dim>
-[[nodiscard]] NeighbourLists find_neighbours(const Fields<Dim>& position, std::size_t count, double reach);
+[[nodiscard]] NeighbourLists find_neighbours(Team& team, const Fields<Dim>& position, std::size_t count, double reach);
 
 /// Drops the pairs whose connecting line at the start crosses a cut.
 template <int Dim>

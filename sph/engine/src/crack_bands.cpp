@@ -161,7 +161,7 @@ void CrackBands<Dim>::follow() {
   if (lists_.empty()) {
     const auto volumes = p.volume.begin() + static_cast<std::ptrdiff_t>(p.count);
     const double largest = std::sqrt(*std::max_element(p.volume.begin(), volumes));
-    lists_ = find_neighbours<Dim>(p.start, p.count, std::hypot(outer, window_length) * largest);
+    lists_ = find_neighbours<Dim>(run_.team, p.start, p.count, std::hypot(outer, window_length) * largest);
     separate<Dim>(lists_, run_.setup.arrangement.cuts, p.start);
     run_.keep_apart(lists_);
   }

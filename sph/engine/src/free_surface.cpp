@@ -237,7 +237,7 @@ std::vector<Free> estimated_surface(const RunData<2>& run, double reach) {
   const Particles<2>& p = run.particles;
   const double spacing = run.setup.arrangement.spacing;
   const double window = 10.0 * spacing;
-  const NeighbourLists lists = find_neighbours<2>(p.start, p.count, 2.0 * spacing);
+  const NeighbourLists lists = find_neighbours<2>(run.team, p.start, p.count, 2.0 * spacing);
   std::vector<std::size_t> rim;
   std::vector<Point> outward;
   Cells cells(window);

@@ -24,7 +24,7 @@ BondRows<Dim> ReferenceBody<Dim>::make_rows() {
   RunData<Dim>& run = this->run_;
   const Particles<Dim>& p = run.particles;
   const Arrangement<Dim>& a = run.setup.arrangement;
-  this->lists_ = find_neighbours<Dim>(p.start, p.count, kernel_support * run.h);
+  this->lists_ = find_neighbours<Dim>(run.team, p.start, p.count, kernel_support * run.h);
   drop_without_share<Dim>(this->lists_, a.cuts, p.start, a.spacing);
   run.keep_apart(this->lists_);
   return BondRows<Dim>(run, this->lists_, this->bonds_);

@@ -42,7 +42,8 @@ int team_size(int requested) {
 }
 
 template <int Dim>
-RunData<Dim>::RunData(const RunSetup<Dim>& s, double time_step) : setup(s), dt(time_step) {
+RunData<Dim>::RunData(const RunSetup<Dim>& s, double time_step)
+    : setup(s), dt(time_step), team(team_size(s.options.threads)) {
   const Options<Dim>& o = setup.options;
   update_options.method = o.method;
   h = o.smoothing_ratio * setup.arrangement.spacing;

@@ -5,6 +5,7 @@
 #include "fpz/options.hpp"
 #include "fpz/sph/simulation.hpp"
 #include "particle_materials.hpp"
+#include "team.hpp"
 #include "work_ledger.hpp"
 
 namespace fpz::sph::detail {
@@ -42,6 +43,7 @@ struct RunData {
   Mask bad;                 ///< of the last pass, per block: a velocity is out of bounds
   WorkLedger<Dim> ledger;
 
+  mutable Team team;
   const Passes<Dim>* passes = nullptr;
   View<Dim> view;
 

@@ -80,7 +80,7 @@ void UpdatedBody<Dim>::rebuild() {
   const RunData<Dim>& run = this->run_;
   const Particles<Dim>& p = run.particles;
   const double skin = run.setup.options.skin * run.setup.arrangement.spacing;
-  this->lists_ = find_neighbours<Dim>(p.position, p.count, kernel_support * run.h + skin);
+  this->lists_ = find_neighbours<Dim>(this->run_.team, p.position, p.count, kernel_support * run.h + skin);
   separate<Dim>(this->lists_, run.setup.arrangement.cuts, p.start);
   run.keep_apart(this->lists_);
   this->bonds_ = pack<Dim>(this->lists_, p.padded(), true);

@@ -22,7 +22,8 @@ constexpr double no_moment = 1e-9;
 template <int Dim>
 ZeroEnergyControl<Dim>::ZeroEnergyControl(RunData<Dim>& run, double strength) : run_(run), strength_(strength) {
   const Particles<Dim>& p = run.particles;
-  lists_ = find_neighbours<Dim>(p.start, p.count, kernel_support * control_smoothing * run.setup.arrangement.spacing);
+  lists_ = find_neighbours<Dim>(run.team, p.start, p.count,
+                                kernel_support * control_smoothing * run.setup.arrangement.spacing);
   separate<Dim>(lists_, run.setup.arrangement.cuts, p.start);
   run.keep_apart(lists_);
   bonds_ = pack<Dim>(lists_, p.padded(), false);

@@ -26,7 +26,8 @@ Cloud cloud() {
   for (std::size_t i = 0; i < count; ++i) {
     for (std::size_t k = 0; k < 2; ++k) c.position[k][i] = s.arrangement.position[i][static_cast<int>(k)];
   }
-  c.neighbours = detail::find_neighbours<2>(c.position, count, 2.4);
+  detail::Team alone(1);
+  c.neighbours = detail::find_neighbours<2>(alone, c.position, count, 2.4);
   return c;
 }
 
