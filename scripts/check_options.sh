@@ -25,6 +25,7 @@ expected_programs() {
     if has "$1" BENCH; then printf '%s\n' fpz-bench fpz-speed-report; fi
     if has "$1" BENCH && has "$1" SPH; then echo fpz-sph-bench; fi
     if has "$1" BENCH && has "$1" CALIBRATION; then echo fpz-beam-bench; fi
+    if has "$1" TESTS && has "$1" CALIBRATION; then echo fpz-verdict-study; fi
     if has "$1" TESTS && [ "$1" != TESTS ]; then echo fpz-doc-tables; fi
   } | sort
 }
