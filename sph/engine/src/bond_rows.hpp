@@ -62,7 +62,7 @@ class BondRows {
       visit(static_cast<std::size_t>(lists_[i][k]), bonds_.weight[0][entry], bonds_.weight[1][entry]);
     }
   }
-  /// From now on a row sees this part of its gradient less: at once, and whenever it is written again.
+  /// From now on a row sees only this part of its gradient: at once, and whenever it is written again.
   void soften(std::size_t i, double part);
   /// L_i of eq 18; of a row that has lost most of its bonds, or is softened, less than that.
   [[nodiscard]] Full correction(std::size_t i) const;

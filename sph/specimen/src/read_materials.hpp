@@ -8,10 +8,10 @@ namespace fpz::specimen::detail {
 
 /// The material of the scene. In the tree the content of a file takes the place of its name, so that the text of the
 /// scene reads back the same.
+[[nodiscard]] std::optional<io::MaterialFile> read_material_of_scene(const InputReader& r, JsonValue& root);
+
 /// Adds how its parameters follow from what is stated to those of the scene.
 void note_conversions(const io::MaterialFile& material, Scene& scene);
-
-[[nodiscard]] std::optional<io::MaterialFile> read_material_of_scene(const InputReader& r, JsonValue& root);
 
 /// Reads the materials of the entries of an array of the root: the name of a file, or an object with what differs from
 /// the file that it names, or else from `first`, the material of the scene; without that none is read. In the tree they
