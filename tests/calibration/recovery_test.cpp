@@ -10,6 +10,7 @@
 #include "fit_models.hpp"
 #include "fpz/calibration/calibration.hpp"
 #include "fpz/io/problems.hpp"
+#include "specimens.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fpz::calibration {
@@ -17,21 +18,7 @@ namespace {
 
 using io::exact;
 
-/// A made-up rock that cracks in mode I under uniaxial tension.
-Parameters truth() {
-  Parameters p;
-  p.young_modulus = 30e9;
-  p.poisson_ratio = 0.2;
-  p.density = 2400.0;
-  p.tensile_strength = 3.5e6;
-  p.cohesion = 12e6;
-  p.friction_angle_deg = 34.0;
-  p.dilation_angle_deg = 6.0;
-  p.delta0 = 20e-6;
-  p.normal_stiffness = 1e14;
-  p.shear_stiffness = 2e12;
-  return p;
-}
+Parameters truth() { return test::mode_one_rock(); }
 
 /// The true parameters; those in `fit` start 15 % off, up and down in turn.
 std::string material(const std::vector<std::string>& fit) {
@@ -109,7 +96,7 @@ class Recovery : public ::testing::Test {
     expect_recovered(set, fit);
   }
 
-  test::TemporaryFolder folder_;
+  fpz::test::TemporaryFolder folder_;
 };
 
 Eigen::VectorXd line(Eigen::Index n, double from, double to) { return Eigen::VectorXd::LinSpaced(n, from, to); }

@@ -9,6 +9,7 @@
 
 #include "fpz/calibration/calibration.hpp"
 #include "fpz/calibration/mid_line.hpp"
+#include "specimens.hpp"
 
 namespace fpz::calibration {
 namespace {
@@ -66,26 +67,14 @@ constexpr double toe_load = 250.0;
 constexpr double machine = 4e-9;
 
 NotchedSpecimen specimen() {
-  NotchedSpecimen s;
-  s.length = 0.32;
-  s.depth = 0.08;
-  s.thickness = 0.04;
-  s.span = 0.24;
+  NotchedSpecimen s = test::beam();
   s.notch = 0.02;
   return s;
 }
 
 Parameters rock() {
-  Parameters p;
-  p.young_modulus = 30e9;
-  p.poisson_ratio = 0.2;
-  p.density = 2400.0;
-  p.tensile_strength = 3.5e6;
-  p.cohesion = 12e6;
-  p.friction_angle_deg = 34.0;
-  p.dilation_angle_deg = 6.0;
+  Parameters p = test::mode_one_rock();
   p.delta0 = 25e-6;
-  p.normal_stiffness = 1e14;
   p.shear_stiffness = 1e14;
   return p;
 }

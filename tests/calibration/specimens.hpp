@@ -18,6 +18,22 @@ inline NotchedSpecimen beam() {
   return s;
 }
 
+/// A made-up rock that cracks in mode I under uniaxial tension.
+inline Parameters mode_one_rock() {
+  Parameters p;
+  p.young_modulus = 30e9;
+  p.poisson_ratio = 0.2;
+  p.density = 2400.0;
+  p.tensile_strength = 3.5e6;
+  p.cohesion = 12e6;
+  p.friction_angle_deg = 34.0;
+  p.dilation_angle_deg = 6.0;
+  p.delta0 = 20e-6;
+  p.normal_stiffness = 1e14;
+  p.shear_stiffness = 2e12;
+  return p;
+}
+
 /// The half disc of section 5.2 of the paper at zero notch angle, with a longer notch.
 inline NotchedSpecimen semicircular() {
   NotchedSpecimen s;
