@@ -9,6 +9,7 @@ packages=(
   libgtest-dev libgmock-dev libbenchmark-dev
   gnuplot-nox libgnuplot-iostream-dev
   libboost-iostreams-dev libboost-filesystem-dev libboost-system-dev zlib1g-dev
+  gfortran pybind11-dev python3-dev python3-numpy valgrind pkg-config
 )
 case "${1:-}" in
   "") ;;

@@ -37,14 +37,7 @@ void visit_capture(Archive& archive, C& c) {
   for (const ParameterInfo<double>& p : parameter_table<double>) {
     if (!p.of_material) archive(p.name, c.parameters.*p.member);
   }
-  archive.object("integrator", [&o = c.options](Archive& integrator) {
-    integrator("name", o.method);
-    integrator("tolerance", o.tolerance);
-    integrator("max_iterations", o.max_iterations);
-    integrator("max_substeps", o.max_substeps);
-    integrator("scan_degrees", o.scan_resolution_deg);
-    integrator("preferred_normal", o.preferred_normal);
-  });
+  archive.object("integrator", [&o = c.options](Archive& integrator) { visit_options(o, integrator); });
   archive.object("begin", [&s = c.begin](Archive& begin) {
     visit_point(s, begin);
     if (s.cracked) visit_crack(s, begin);

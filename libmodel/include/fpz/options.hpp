@@ -39,6 +39,20 @@ struct Options {
   Vec<double, 3> preferred_normal = Vec<double, 3>::Zero();
 };
 
+/// Calls f(key, option) for every option, under the keys of captures: enumerations with words, numbers, and a vector.
+template <class O, class F>
+void visit_options(O& o, F&& f) {
+  f("name", o.method);
+  f("tolerance", o.tolerance);
+  f("max_iterations", o.max_iterations);
+  f("max_substeps", o.max_substeps);
+  f("scan_degrees", o.scan_resolution_deg);
+  f("preferred_normal", o.preferred_normal);
+}
+
+/// What is wrong with the numbers of the options, under the keys of visit_options().
+[[nodiscard]] Validation validate(const Options& o);
+
 /// Why an integrator cannot follow the cohesive zone of a material, with the way out; empty: it can.
 [[nodiscard]] std::string why_unfit(Method method, const MaterialChoices& choices);
 
