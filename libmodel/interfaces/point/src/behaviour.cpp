@@ -4,6 +4,8 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "fpz/point/notice.hpp"
+
 namespace fpz::point {
 
 namespace {
@@ -44,6 +46,7 @@ struct Kept {
   std::vector<double> list;
   Behaviour behaviour;
   bool own_length = false;  ///< H comes from the list
+  bool long_noticed = false;
   bool used = false;
 
   [[nodiscard]] bool is(Setting setting, std::span<const double> other) const {
@@ -60,6 +63,15 @@ struct Shelf {
   std::size_t next = 0;  ///< to be replaced next
 };
 
+void notice_snap_back(Kept& kept) {
+  const Behaviour& b = kept.behaviour;
+  if (kept.long_noticed || b.parameters.rve_length < b.snap_back_length) return;
+  kept.long_noticed = true;
+  for (const Violation& v : validate(b.parameters, b.setting).warnings) {
+    if (v.field == "rve_length") notice(text_of({v}));
+  }
+}
+
 /// The length of the place where it differs from the one that the behaviour has.
 const Behaviour& with_length(Kept& kept, double rve_length) {
   Behaviour& b = kept.behaviour;
@@ -67,6 +79,7 @@ const Behaviour& with_length(Kept& kept, double rve_length) {
   if (!(rve_length > 0.0) || !std::isfinite(rve_length)) return b = make_behaviour(b.setting, kept.list, rve_length);
   b.parameters.rve_length = rve_length;
   set_rve_length(b.material, rve_length);
+  notice_snap_back(kept);
   return b;
 }
 
@@ -104,9 +117,14 @@ const Behaviour& behaviour_of(Setting setting, std::span<const double> list, dou
     shelf.last = k;
     return with_length(shelf.kept[k], rve_length);
   }
-  Kept fresh{{list.begin(), list.end()}, make_behaviour(setting, list, rve_length), false, true};
+  Kept fresh;
+  fresh.list.assign(list.begin(), list.end());
+  fresh.behaviour = make_behaviour(setting, list, rve_length);
   constexpr std::size_t place = material_parameter_count;
   fresh.own_length = list.size() > place && list[place] != 0.0;
+  fresh.long_noticed = fresh.behaviour.parameters.rve_length >= fresh.behaviour.snap_back_length;
+  fresh.used = true;
+  if (!fresh.behaviour.warnings.empty()) notice(fresh.behaviour.warnings);
   shelf.last = shelf.next;
   shelf.next = (shelf.next + 1) % kept_count;
   shelf.kept[shelf.last] = std::move(fresh);

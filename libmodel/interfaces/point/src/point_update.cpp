@@ -87,9 +87,7 @@ Outcome update_flat(const Behaviour& b, const double* begin, const double* strai
                     double* tangent) noexcept {
   State<double, Dim> state;
   if (!load<Dim>(begin, 1, state)) {
-    set_last_message(
-        "invalid_input: the state is none that this library wrote (\"cracked\" is 0 or 1, the frame is a rotation, the "
-        "integrity is between 0 and 1): averaged, transferred between meshes, or of another layout");
+    set_last_message(std::string("invalid_input: ") + not_a_state);
     if (end != begin) std::copy(begin, begin + state_size<Dim>, end);
     return {Status::invalid_input};
   }

@@ -27,8 +27,8 @@ struct Behaviour {
 [[nodiscard]] Behaviour make_behaviour(Setting setting, const Statement& statement);
 
 /// The behaviour of a list, made and checked when a thread first meets it; the last ones are kept, compared by their
-/// bytes. Nothing is allocated when it is found. The reference is good until the thread's next call. Throws as
-/// make_behaviour() does.
+/// bytes. Nothing is allocated when it is found. The reference is good until the thread's next call. Warnings of
+/// a new one are printed (notice.hpp). Throws as make_behaviour() does.
 [[nodiscard]] const Behaviour& behaviour_of(Setting setting, std::span<const double> list, double rve_length = 0.0);
 
 }  // namespace fpz::point

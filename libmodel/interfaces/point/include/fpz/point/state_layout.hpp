@@ -64,6 +64,12 @@ template <int Dim>
 
 }  // namespace detail
 
+/// What to say of an array that is not a state.
+inline constexpr const char* not_a_state =
+    "the state is none that this library wrote (\"cracked\" is 0 or 1, the frame is a rotation, the integrity is "
+    "between "
+    "0 and 1): averaged, transferred between meshes, or of another layout";
+
 /// Reads the array into `to`; nothing of the crack is read while the point is not cracked. False when the array is not
 /// a state that store() wrote, as after averaging between points or with another layout: a flag that is neither 0 nor
 /// 1, a frame that is none, an integrity outside 0 to 1.
