@@ -20,32 +20,6 @@ int max_threads() {
 #endif
 }
 
-/// Combines two reports of disjoint sets of points.
-void merge(BatchReport& into, const BatchReport& part) {
-  if (part.first_failed < into.first_failed) {
-    into.first_failed = part.first_failed;
-    into.first_status = part.first_status;
-  }
-  into.failed += part.failed;
-  into.cracked += part.cracked;
-  into.new_cracks += part.new_cracks;
-  into.iterations += part.iterations;
-}
-
-void count(BatchReport& report, std::size_t index, const Report& point, bool cracked) {
-  report.iterations += point.iterations;
-  report.cracked += cracked ? 1 : 0;
-  if (point.ok()) {
-    report.new_cracks += point.onset ? 1 : 0;
-    return;
-  }
-  ++report.failed;
-  if (index < report.first_failed) {
-    report.first_failed = index;
-    report.first_status = point.status;
-  }
-}
-
 }  // namespace
 
 template <int Dim>
@@ -69,10 +43,10 @@ BatchReport update_batch(const Material<double>& m, const Options& o, std::span<
       const Report point = tangents.empty()
                                ? update<Dim>(m, o, begin[k], strain_increments[k], end[k])
                                : update_with_tangent<Dim>(m, o, begin[k], strain_increments[k], end[k], tangents[k]);
-      count(part, k, point, end[k].cracked);
+      part.add(k, point, end[k].cracked);
     }
 #pragma omp critical(fpz_update_batch)
-    merge(total, part);
+    total.add(part);
   }
   return total;
 }

@@ -21,6 +21,31 @@ struct BatchReport {
   long long iterations = 0;          ///< sum over all points
 
   [[nodiscard]] bool ok() const { return failed == 0; }
+
+  /// Counts one point.
+  void add(std::size_t index, const Report& point, bool is_cracked) {
+    iterations += point.iterations;
+    if (is_cracked) ++cracked;
+    if (point.ok()) {
+      if (point.onset) ++new_cracks;
+      return;
+    }
+    ++failed;
+    if (index >= first_failed) return;
+    first_failed = index;
+    first_status = point.status;
+  }
+  /// Adds the report of other points.
+  void add(const BatchReport& part) {
+    if (part.first_failed < first_failed) {
+      first_failed = part.first_failed;
+      first_status = part.first_status;
+    }
+    failed += part.failed;
+    cracked += part.cracked;
+    new_cracks += part.new_cracks;
+    iterations += part.iterations;
+  }
 };
 
 /// Updates every point of `begin` by its strain increment into `end` (see update()). All spans have one length; begin
