@@ -138,10 +138,11 @@ module fpz
       real(c_double), intent(inout), optional :: tangent(*), energies(2)
       integer(c_int) :: fpz_update
     end function
+    ! batch is inout because what it points to changes: with intent(in) compilers keep old values of the results.
     function fpz_update_batch(material, batch, report) bind(C)
       import :: c_ptr, c_int, fpz_batch, fpz_report
       type(c_ptr), value :: material
-      type(fpz_batch), intent(in) :: batch
+      type(fpz_batch), intent(inout) :: batch
       type(fpz_report), intent(out) :: report
       integer(c_int) :: fpz_update_batch
     end function
