@@ -15,6 +15,17 @@ template <int Dim>
 [[nodiscard]] Report update_beyond_elastic(const Material<double>& m, const Options& o, const State<double, Dim>& begin,
                                            const Tensor<double, Dim>& dstrain, State<double, Dim>& end);
 
+/// Strain and stress at the end of an increment from an uncracked begin, and whether the point is certainly intact
+/// there.
+template <int Dim>
+[[nodiscard]] FPZ_INLINE bool stays_intact(const Material<double>& m, const Tensor<double, Dim>& begin_strain,
+                                           const Tensor<double, Dim>& dstrain, Tensor<double, Dim>& strain,
+                                           Tensor<double, Dim>& stress) {
+  for (int k = 0; k < tensor_size<Dim>; ++k) strain[k] = begin_strain[k] + dstrain[k];
+  stress = m.bulk.stress<double, Dim>(strain);
+  return m.law.surface.surely_intact<Dim>(stress);  // false for NaN
+}
+
 }  // namespace detail
 
 /// Stress-strain update of one point over a strain increment (Algorithm 2). The strain moves on a straight line from
@@ -25,10 +36,8 @@ template <int Dim>
 [[nodiscard]] Report update(const Material<double>& m, const Options& o, const State<double, Dim>& begin,
                             const Tensor<double, Dim>& dstrain, State<double, Dim>& end) {
   if (!begin.cracked) {
-    Tensor<double, Dim> strain;
-    for (int k = 0; k < tensor_size<Dim>; ++k) strain[k] = begin.strain[k] + dstrain[k];
-    const Tensor<double, Dim> stress = m.bulk.stress<double, Dim>(strain);
-    if (m.law.surface.surely_intact<Dim>(stress)) {  // false for NaN
+    Tensor<double, Dim> strain, stress;
+    if (detail::stays_intact<Dim>(m, begin.strain, dstrain, strain, stress)) {
       end.strain = strain;
       end.stress = stress;
       end.cracked = false;

@@ -10,7 +10,6 @@
 #include <cmath>
 #include <cstddef>
 #include <exception>
-#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -90,14 +89,18 @@ const point::Behaviour& behaviour(const Call& c, Setting setting) {
   }
 }
 
-/// DROT as the rotation Q of the library, sigma' = Q sigma Q^T; nothing when it is the identity.
+bool is_identity(const double* drot) {
+  static constexpr double identity[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+  return std::equal(drot, drot + 9, identity);
+}
+
+/// DROT as the rotation Q of the library, sigma' = Q sigma Q^T.
 template <int Dim>
-std::optional<Mat<double, Dim, Dim>> rotation(const double* drot) {
+Mat<double, Dim, Dim> rotation(const double* drot) {
   Mat<double, 3, 3> q;
   for (int j = 0; j < 3; ++j) {
     for (int i = 0; i < 3; ++i) q(i, j) = drot[3 * j + i];
   }
-  if (q == Mat<double, 3, 3>::Identity()) return std::nullopt;
   if (!point::detail::is_frame<3>(q) ||
       !(q(0, 0) * (q(1, 1) * q(2, 2) - q(1, 2) * q(2, 1)) - q(0, 1) * (q(1, 0) * q(2, 2) - q(1, 2) * q(2, 0)) +
             q(0, 2) * (q(1, 0) * q(2, 1) - q(1, 1) * q(2, 0)) >
@@ -144,18 +147,19 @@ void notice_other_stress(const point::Behaviour& b, const State<double, Dim>& s,
 }
 
 template <int Dim>
-State<double, Dim> begin_state(const Call& c, const point::Behaviour& b, const Places<Dim>& at) {
+void read_begin(const Call& c, const point::Behaviour& b, const Places<Dim>& at, State<double, Dim>& s) {
   if (c.nstatv < static_cast<int>(point::state_size<Dim>)) {
     throw std::invalid_argument("NSTATV = " + std::to_string(c.nstatv) + ": must be at least " +
                                 std::to_string(point::state_size<Dim>));
   }
-  State<double, Dim> s;
   if (!point::load<Dim>(c.statev, 1, s)) throw std::invalid_argument(point::not_a_state);
   const Tensor<double, Dim> given = given_stress<Dim>(c, at);
-  if (is_fresh(s)) return given.isZero(0.0) ? s : stressed<Dim>(b, given);
-  if (const auto q = rotation<Dim>(c.drot)) rotate(s, *q);
+  if (is_fresh(s)) {
+    if (!given.isZero(0.0)) s = stressed<Dim>(b, given);
+    return;
+  }
+  if (!is_identity(c.drot)) rotate(s, rotation<Dim>(c.drot));
   notice_other_stress<Dim>(b, s, given);
-  return s;
 }
 
 template <int Dim>
@@ -195,8 +199,8 @@ void write_stress(const Call& c, const point::Behaviour& b, const Places<Dim>& a
 /// The update with a known material. All that may fail comes before anything is written.
 template <int Dim>
 void update_with(const Call& c, const point::Behaviour& b, const Places<Dim>& at) {
-  const State<double, Dim> begin = begin_state<Dim>(c, b, at);
-  State<double, Dim> end;
+  State<double, Dim> begin, end;
+  read_begin<Dim>(c, b, at, begin);
   Tangent<Dim> tangent;
   const point::Outcome out = point::update_point<Dim>(b, begin, strain_increment<Dim>(c, at), end, &tangent);
   if (!out.ok()) throw std::runtime_error(point::last_message());

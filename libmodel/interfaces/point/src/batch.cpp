@@ -1,5 +1,6 @@
 #include "fpz/point/batch.hpp"
 
+#include <algorithm>
 #include <exception>
 #include <string>
 
@@ -36,21 +37,24 @@ class Worker {
 
   void update_point(std::size_t i) {
     if (arrays_.lengths != nullptr && !take_length(arrays_.lengths[i])) return keep(i, {Status::invalid_input});
-    const double* begin = arrays_.begin.of(i);
-    const std::ptrdiff_t step = arrays_.begin.component;
-    if (!(intact(begin, step) ? load_intact(begin, step) : load<Dim>(begin, step, begin_))) {
-      return keep(i, {Status::invalid_input});
-    }
     Tensor<double, Dim> increment;
     const double* given = arrays_.strain_increments.of(i);
     for (int k = 0; k < tensor_size<Dim>; ++k) increment[k] = given[k * arrays_.strain_increments.component];
+    const double* begin = arrays_.begin.of(i);
+    const std::ptrdiff_t step = arrays_.begin.component;
+    if (begin[flag * step] == 0.0) {
+      if (stays_intact(i, increment)) return;
+      load_intact(begin, step);
+    } else if (!load<Dim>(begin, step, begin_)) {
+      return keep(i, {Status::invalid_input});
+    }
     const Report point =
         arrays_.tangents.data == nullptr
             ? fpz::update<Dim>(material_, behaviour_.options, begin_, increment, end_)
             : fpz::update_with_tangent<Dim>(material_, behaviour_.options, begin_, increment, end_, tangent_);
     if (!point.ok()) return keep(i, point);
-    store_end(i, begin == arrays_.end.of(i));
-    if (arrays_.tangents.data != nullptr) store_tangent(i);
+    store<Dim>(end_, arrays_.end.of(i), arrays_.end.component);
+    if (arrays_.tangents.data != nullptr) store_tangent(i, tangent_);
     if (arrays_.energies.data != nullptr) store_energies(i);
     book(i, point, end_.cracked);
   }
@@ -58,16 +62,46 @@ class Worker {
  private:
   static constexpr std::ptrdiff_t flag = 2 * tensor_size<Dim>;  // where `cracked` is
 
-  [[nodiscard]] static bool intact(const double* state, std::ptrdiff_t step) { return state[flag * step] == 0.0; }
+  /// The short way of most points: nothing of the crack is read, and nothing is written that is there already.
+  [[nodiscard]] bool stays_intact(std::size_t i, const Tensor<double, Dim>& increment) {
+    const double* from = arrays_.begin.of(i);
+    Tensor<double, Dim> old, strain, stress;
+    for (int k = 0; k < tensor_size<Dim>; ++k) old[k] = from[k * arrays_.begin.component];
+    if (!fpz::detail::stays_intact<Dim>(material_, old, increment, strain, stress)) return false;
+    double* to = arrays_.end.of(i);
+    const std::ptrdiff_t step = arrays_.end.component;
+    for (int k = 0; k < tensor_size<Dim>; ++k) {
+      to[k * step] = strain[k];
+      to[(tensor_size<Dim> + k) * step] = stress[k];
+    }
+    if (to != from) clear_crack(to, step);
+    if (arrays_.tangents.data != nullptr) store_tangent(i, elastic_);
+    if (arrays_.energies.data != nullptr) {
+      end_.cracked = false;
+      end_.strain = strain;
+      end_.stress = stress;
+      store_energies(i);
+    }
+    if (arrays_.statuses != nullptr) arrays_.statuses[i] = static_cast<int>(Status::ok);
+    return true;
+  }
 
-  /// What an update of an intact point reads.
-  [[nodiscard]] bool load_intact(const double* from, std::ptrdiff_t step) {
+  static void clear_crack(double* state, std::ptrdiff_t step) {
+    constexpr auto size = static_cast<std::ptrdiff_t>(state_size<Dim>);
+    if (step == 1) {  // of known length: a few wide stores
+      std::fill_n(state + flag, size - flag, 0.0);
+    } else {
+      for (std::ptrdiff_t k = flag; k < size; ++k) state[k * step] = 0.0;
+    }
+  }
+
+  /// What an update of an uncracked point reads.
+  void load_intact(const double* from, std::ptrdiff_t step) {
     for (int k = 0; k < tensor_size<Dim>; ++k) {
       begin_.strain[k] = from[k * step];
       begin_.stress[k] = from[(tensor_size<Dim> + k) * step];
     }
     begin_.cracked = false;
-    return true;
   }
 
   [[nodiscard]] bool take_length(double length) {
@@ -77,21 +111,11 @@ class Worker {
     return true;
   }
 
-  void store_end(std::size_t i, bool in_place) {
-    double* to = arrays_.end.of(i);
-    const std::ptrdiff_t step = arrays_.end.component;
-    if (end_.cracked || !in_place) return store<Dim>(end_, to, step);
-    for (int k = 0; k < tensor_size<Dim>; ++k) {  // the numbers of the crack are zero there already
-      to[k * step] = end_.strain[k];
-      to[(tensor_size<Dim> + k) * step] = end_.stress[k];
-    }
-  }
-
-  void store_tangent(std::size_t i) {
+  void store_tangent(std::size_t i, const Tangent<Dim>& t) {
     double* to = arrays_.tangents.of(i);
     for (int r = 0; r < tensor_size<Dim>; ++r) {
       for (int c = 0; c < tensor_size<Dim>; ++c) {
-        to[(r * tensor_size<Dim> + c) * arrays_.tangents.component] = tangent_(r, c);
+        to[(r * tensor_size<Dim> + c) * arrays_.tangents.component] = t(r, c);
       }
     }
   }
@@ -124,6 +148,7 @@ class Worker {
   State<double, Dim> begin_;
   State<double, Dim> end_;
   Tangent<Dim> tangent_;
+  Tangent<Dim> elastic_ = elastic_tangent<Dim>(behaviour_.material.bulk);
 };
 
 /// The message of the first point that failed: its begin is still there, in `end`.

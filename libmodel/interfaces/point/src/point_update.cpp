@@ -28,13 +28,11 @@ Outcome update_point(const Behaviour& b, const State<double, Dim>& begin, const 
                      State<double, Dim>& end, Tangent<Dim>* tangent) noexcept {
   Outcome out;
   try {
-    State<double, Dim> result;
     const Report report = tangent != nullptr
-                              ? update_with_tangent<Dim>(b.material, b.options, begin, increment, result, *tangent)
-                              : update<Dim>(b.material, b.options, begin, increment, result);
+                              ? update_with_tangent<Dim>(b.material, b.options, begin, increment, end, *tangent)
+                              : update<Dim>(b.material, b.options, begin, increment, end);
     out = {report.status, report.iterations, report.substeps, report.onset, 0.0, 0.0};
     if (!report.ok()) explain<Dim>(b, begin, increment, report.status);
-    end = result;
     out.stored_energy = stored_energy(b.material, end);
     out.dissipated_energy = dissipated_energy(b.material, end);
   } catch (const std::exception& e) {
