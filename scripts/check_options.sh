@@ -27,7 +27,7 @@ expected_programs() {
     if has "$1" BENCH && has "$1" INTERFACES; then echo fpz-interface-bench; fi
     if has "$1" BENCH && has "$1" CALIBRATION; then echo fpz-beam-bench; fi
     if has "$1" TESTS && has "$1" CALIBRATION; then echo fpz-verdict-study; fi
-    if has "$1" TESTS && [ "$1" != TESTS ] && [ "$1" != INTERFACES+TESTS ]; then echo fpz-doc-tables; fi
+    if has "$1" TESTS && [ "$1" != TESTS ]; then echo fpz-doc-tables; fi
   } | sort
 }
 
