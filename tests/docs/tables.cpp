@@ -8,6 +8,10 @@
 #ifdef FPZ_DOCS_DRIVER
 #include "fpz/driver/history.hpp"
 #endif
+#ifdef FPZ_DOCS_INTERFACES
+#include "fpz/point/properties.hpp"
+#include "fpz/point/state_layout.hpp"
+#endif
 #ifdef FPZ_DOCS_SPH
 #include "fpz/specimen/history_columns.hpp"
 #include "fpz/sph/energy.hpp"
@@ -82,6 +86,51 @@ constexpr auto* driver_history_table = driver_history;
 constexpr std::string (*driver_history_table)() = nullptr;
 #endif
 
+#ifdef FPZ_DOCS_INTERFACES
+std::string interface_properties() {
+  std::string table = heading({"place", "name", "unit", "values", "0 or missing"});
+  int place = 0;
+  for (const point::Property& p : point::properties()) {
+    const std::string otherwise = p.name == "rve_length" ? "see the interface" : number(p.default_value);
+    table += row({std::to_string(++place), code(p.name), p.unit, p.values, p.required ? "refused" : otherwise});
+  }
+  return table;
+}
+
+/// Runs of names with one beginning share a row.
+std::string interface_state() {
+  std::string table = heading({"plane settings", "solids", "names"});
+  const auto places = [](int dim, const std::string& field) {
+    const std::vector<std::string>& names = point::state_names(dim);
+    std::size_t first = names.size(), last = 0;
+    for (std::size_t k = 0; k < names.size(); ++k) {
+      if (names[k] != field && !names[k].starts_with(field + "_")) continue;
+      first = std::min(first, k + 1);
+      last = k + 1;
+    }
+    return std::to_string(first) + (last > first ? " to " + std::to_string(last) : "");
+  };
+  const auto list = [](const std::string& field) {
+    std::string text;
+    for (const std::string& name : point::state_names(3)) {
+      if (name == field || name.starts_with(field + "_")) text += (text.empty() ? "" : ", ") + code(name);
+    }
+    return text;
+  };
+  State2 s;
+  const auto add = [&](const std::string& field) { table += row({places(2, field), places(3, field), list(field)}); };
+  visit_point(s, [&](const char* field, const auto&) { add(field); });
+  visit_crack(s, [&](const char* field, const auto&) { add(field); });
+  add("damage");
+  return table;
+}
+constexpr auto* interface_properties_table = interface_properties;
+constexpr auto* interface_state_table = interface_state;
+#else
+constexpr std::string (*interface_properties_table)() = nullptr;
+constexpr std::string (*interface_state_table)() = nullptr;
+#endif
+
 #ifdef FPZ_DOCS_SPH
 // How a default is written in a scene file.
 std::string in_scene(double x) { return number(x); }
@@ -132,6 +181,8 @@ constexpr NamedTable tables[] = {
     {"material-alternatives", material_alternatives},
     {"parameter-plausibility", parameter_plausibility},
     {"driver-history", driver_history_table},
+    {"interface-properties", interface_properties_table},
+    {"interface-state", interface_state_table},
     {"method-options", method_options_table},
     {"energy-terms", energy_terms_table},
     {"sph-history", sph_history_table},

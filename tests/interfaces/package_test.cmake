@@ -31,6 +31,10 @@ run("${FORTRAN_COMPILER}" "${module}" "${examples}/tension.f90" ${flags} -o tens
 run("${WORK_DIR}/tension_f90")
 set(of_fortran "${out}")
 
+run("${FORTRAN_COMPILER}" "${examples}/umat_tension.f90" "-L${library_folder}" -lfpz_umat -o umat_tension)
+run("${WORK_DIR}/umat_tension")
+set(of_umat "${out}")
+
 file(WRITE "${WORK_DIR}/project/CMakeLists.txt" "
 cmake_minimum_required(VERSION 3.25)
 project(outside LANGUAGES C CXX)
@@ -44,7 +48,7 @@ run("${CMAKE_COMMAND}" --build build --config "${CONFIG}")
 run("${WORK_DIR}/build/tension")
 
 # The last row: strain, stress, damage.
-foreach(text IN ITEMS "${of_c}" "${of_fortran}" "${out}")
+foreach(text IN ITEMS "${of_c}" "${of_fortran}" "${of_umat}" "${out}")
   if(NOT text MATCHES "0\\.0100 +67037[.0-9]* +0\\.88827\n$")
     message(FATAL_ERROR "unexpected table:\n${text}")
   endif()
