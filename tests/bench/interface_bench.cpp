@@ -7,6 +7,7 @@
 #include <fpz.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <functional>
@@ -300,7 +301,7 @@ std::string table(const Setup& s, const std::vector<Ring>& rings, bool quick) {
     for (const Row& row : rows_for(s, ring)) {
       const Times t = measure(row, quick);
       text += "| " + row.what + " | " + print("%.0f", 1e9 * t.direct) + " | " +
-              print("%.0f", 1e9 * (t.through - t.direct)) + " | " +
+              print("%.0f", std::round(1e9 * (t.through - t.direct)) + 0.0) + " | " +
               print("%.1f", 100.0 * (t.through / t.direct - 1.0)) + " |\n";
     }
   }
