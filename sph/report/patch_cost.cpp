@@ -112,8 +112,7 @@ struct Solution {
 using Solve = std::function<Solution(const Problem&, const Sparse&)>;
 
 Solution by_blocks(const Problem& p, const Sparse&) {
-  const auto order = sph::detail::dissection_order<2>(p.run.particles.start, p.lists);
-  const sph::detail::BlockCholesky<multipliers> factors(p.equations.matrix, order);
+  const sph::detail::BlockCholesky<multipliers> factors(p.equations.matrix, p.equations.order);
   return {factors.solve(p.equations.right), static_cast<double>(factors.entries())};
 }
 
@@ -123,7 +122,7 @@ Solution by_ldlt(const Problem& p, const Sparse& a) {
 }
 
 Solution by_dissected_ldlt(const Problem& p, const Sparse& a) {
-  const auto order = sph::detail::dissection_order<2>(p.run.particles.start, p.lists);
+  const std::vector<int>& order = p.equations.order;
   Ordering place(a.rows());
   for (std::size_t k = 0; k < order.size(); ++k) {
     for (int c = 0; c < multipliers; ++c) {

@@ -7,11 +7,7 @@ namespace fpz::sph::detail {
 
 template <int Dim>
 void Body<Dim>::point_bonds() {
-  View<Dim>& v = run_.view;
-  v.column = bonds_.column.data();
-  v.neighbour = bonds_.neighbour.data();
-  v.closeness = bonds_.closeness.data();
-  for (std::size_t c = 0; c < run_.dimensions; ++c) v.weight[c] = bonds_.weight[c].data();
+  run_.view.bonds = bonds_.view();
 }
 
 template <int Dim>

@@ -35,7 +35,7 @@ BondRows<Dim>::BondRows(RunData<Dim>& run, NeighbourLists& lists, Bonds<Dim>& bo
       softened_(run.particles.count, 1.0),
       width_(run.particles.count, Width::whole) {
   const Options<Dim>& o = run.setup.options;
-  bonds_ = pack<Dim>(lists_, run.particles.padded(), false);
+  bonds_ = pack<Dim>(lists_, run.particles.padded(), Beside::nothing);
   if (o.gradient == Gradient::consistent && o.momentum == MomentumForm::adjoint) {
     vectors_ = make_bond_vectors(run, lists_);
   }
@@ -119,6 +119,7 @@ Full BondRows<Dim>::correction(std::size_t i) const {
 template <int Dim>
 void BondRows<Dim>::write_all() {
   for (std::size_t i = 0; i < run_.particles.count; ++i) write(i);
+  bonds_.share();
 }
 
 /// eq 17, eq 18: the vectors of a row's bonds and their correction L_i.
@@ -135,6 +136,7 @@ void BondRows<Dim>::write(std::size_t i) {
     bonds_.weight[0][entry] = w[0];
     bonds_.weight[1][entry] = w[1];
   }
+  bonds_.own(block);
   const Full c = correction(i);
   if (run_.setup.options.momentum == MomentumForm::adjoint) {
     set_correction(i, c);

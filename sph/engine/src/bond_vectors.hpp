@@ -44,6 +44,7 @@ inline constexpr int multipliers = 6;
 struct NormalEquations {
   BlockMatrix<multipliers> matrix;
   Eigen::VectorXd right;
+  std::vector<int> order;  ///< of elimination
 };
 [[nodiscard]] NormalEquations normal_equations(const RunData<2>& run, const NeighbourLists& lists);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <utility>
 
 namespace fpz::sph::detail {
@@ -35,6 +36,7 @@ std::array<std::int64_t, 3> cell_of(const Fields<Dim>& position, std::size_t i, 
 template <int Dim>
 NeighbourLists find_neighbours(Team& team, const Fields<Dim>& position, std::size_t count, double reach) {
   const double inverse = 1.0 / reach;
+  const double square = (1.0 - 1e-9) * reach * reach;  // on a lattice rounding would choose among those at the edge
   std::vector<std::pair<std::uint64_t, int>> cells(count);
   for (std::size_t i = 0; i < count; ++i) {
     cells[i] = {cell_key<Dim>(cell_of<Dim>(position, i, inverse)), static_cast<int>(i)};
@@ -55,7 +57,7 @@ NeighbourLists find_neighbours(Team& team, const Fields<Dim>& position, std::siz
             const double d = position[c][j] - position[c][i];
             r2 += d * d;
           }
-          if (j != i && r2 < reach * reach) list.push_back(at->second);
+          if (j != i && r2 < square) list.push_back(at->second);
         }
       }
     }
@@ -98,27 +100,72 @@ void drop_without_share(NeighbourLists& lists, const std::vector<Cut<Dim>>& cuts
                   [&](const auto& p, const auto& q) { return share_of_bond(cuts, p, q, spacing) <= 0.0; });
 }
 
-template <int Dim>
-std::vector<std::size_t> curve_order(const std::vector<Vec<double, Dim>>& points, double cell) {
-  Vec<double, Dim> low = points.front();
-  for (const Vec<double, Dim>& p : points) low = low.cwiseMin(p);
-  std::vector<std::pair<std::uint64_t, std::size_t>> keyed(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    std::uint64_t key = 0;
-    for (int c = 0; c < Dim; ++c) {
-      const auto x = static_cast<std::uint64_t>((points[i][c] - low[c]) / cell);
-      for (int bit = 0; bit < 20; ++bit) key |= ((x >> bit) & 1U) << (bit * Dim + c);
-    }
-    keyed[i] = {key, i};
+Vec<double, 2> AlikeBonds::operator()(const Vec<double, 2>& line) {
+  for (const Vec<double, 2>& kind : kinds_) {
+    if ((line - kind).cwiseAbs().maxCoeff() < near_) return kind;
+    if ((line + kind).cwiseAbs().maxCoeff() < near_) return -kind;
   }
-  std::sort(keyed.begin(), keyed.end());
-  std::vector<std::size_t> order(points.size());
-  std::transform(keyed.begin(), keyed.end(), order.begin(), [](const auto& k) { return k.second; });
-  return order;
+  if (kinds_.size() < most_kinds) kinds_.push_back(line);
+  return line;
 }
 
 template <int Dim>
-Bonds<Dim> pack(const NeighbourLists& lists, std::size_t padded, bool with_closeness) {
+void Bonds<Dim>::own(std::size_t block) {
+  shared[block] = -1;
+  for (int c = column[block]; c < column[block + 1]; ++c) {
+    const int* j = &neighbour[static_cast<std::size_t>(c) * lanes];
+    bool follows = true;
+    for (std::size_t l = 1; l < lanes; ++l) follows = follows && j[l] == j[0] + static_cast<int>(l);
+    run[static_cast<std::size_t>(c)] = follows ? j[0] : -1;
+  }
+}
+
+namespace {
+
+bool same_in_all_lanes(const Field& f, std::size_t first) {
+  if (f.empty()) return true;
+  return std::all_of(&f[first], &f[first] + lanes, [&](double x) { return x == f[first]; });
+}
+
+}  // namespace
+
+template <int Dim>
+void Bonds<Dim>::share() {
+  for (Field& w : stencil_weight) w.clear();
+  stencil_beside.clear();
+  std::map<std::vector<double>, int> known;
+  for (std::size_t b = 0; b < shared.size(); ++b) {
+    const auto first = static_cast<std::size_t>(column[b]), last = static_cast<std::size_t>(column[b + 1]);
+    std::vector<double> bonds;
+    bool uniform = last > first;
+    for (std::size_t c = first; uniform && c < last; ++c) {
+      uniform = run[c] >= 0 && same_in_all_lanes(beside, c * lanes);
+      for (const Field& w : weight) uniform = uniform && same_in_all_lanes(w, c * lanes), bonds.push_back(w[c * lanes]);
+      bonds.push_back(beside.empty() ? 0.0 : beside[c * lanes]);
+    }
+    if (!uniform) continue;
+    const auto [at, is_new] = known.try_emplace(bonds, static_cast<int>(stencil_weight[0].size()));
+    shared[b] = at->second;
+    for (std::size_t c = first; is_new && c < last; ++c) {
+      for (std::size_t d = 0; d < weight.size(); ++d) stencil_weight[d].push_back(weight[d][c * lanes]);
+      if (!beside.empty()) stencil_beside.push_back(beside[c * lanes]);
+    }
+  }
+}
+
+template <int Dim>
+BondView<Dim> Bonds<Dim>::view() {
+  BondView<Dim> v{column.data(),        neighbour.data(), run.data(), shared.data(), {}, beside.data(), {},
+                  stencil_beside.data()};
+  for (std::size_t d = 0; d < weight.size(); ++d) {
+    v.weight[d] = weight[d].data();
+    v.stencil_weight[d] = stencil_weight[d].data();
+  }
+  return v;
+}
+
+template <int Dim>
+Bonds<Dim> pack(const NeighbourLists& lists, std::size_t padded, Beside beside) {
   Bonds<Dim> bonds;
   bonds.column.push_back(0);
   for (std::size_t b = 0; b < padded / lanes; ++b) {
@@ -136,8 +183,11 @@ Bonds<Dim> pack(const NeighbourLists& lists, std::size_t padded, bool with_close
     }
     bonds.column.push_back(bonds.column.back() + static_cast<int>(width));
   }
-  for (Field& w : bonds.weight) w.assign(bonds.neighbour.size(), 0.0);
-  if (with_closeness) bonds.closeness.assign(bonds.neighbour.size(), 0.0);
+  bonds.run.resize(static_cast<std::size_t>(bonds.column.back()));
+  bonds.shared.resize(padded / lanes);
+  for (std::size_t b = 0; b < bonds.shared.size(); ++b) bonds.own(b);
+  for (Field& w : bonds.weight) w.assign(bonds.entries(), 0.0);
+  if (beside == Beside::a_number) bonds.beside.assign(bonds.entries(), 0.0);
   return bonds;
 }
 
@@ -145,9 +195,9 @@ template NeighbourLists find_neighbours<2>(Team&, const Fields<2>&, std::size_t,
 template NeighbourLists find_neighbours<3>(Team&, const Fields<3>&, std::size_t, double);
 template void separate<2>(NeighbourLists&, const std::vector<Cut<2>>&, const Fields<2>&);
 template void drop_without_share<2>(NeighbourLists&, const std::vector<Cut<2>>&, const Fields<2>&, double);
-template std::vector<std::size_t> curve_order<2>(const std::vector<Vec<double, 2>>&, double);
-template std::vector<std::size_t> curve_order<3>(const std::vector<Vec<double, 3>>&, double);
-template Bonds<2> pack<2>(const NeighbourLists&, std::size_t, bool);
-template Bonds<3> pack<3>(const NeighbourLists&, std::size_t, bool);
+template struct Bonds<2>;
+template struct Bonds<3>;
+template Bonds<2> pack<2>(const NeighbourLists&, std::size_t, Beside);
+template Bonds<3> pack<3>(const NeighbourLists&, std::size_t, Beside);
 
 }  // namespace fpz::sph::detail

@@ -8,6 +8,7 @@
 #include "fpz/sph/cut.hpp"
 #include "fpz/sph/particles.hpp"
 #include "team.hpp"
+#include "view.hpp"
 
 namespace fpz::sph::detail {
 
@@ -28,18 +29,41 @@ template <int Dim>
 void drop_without_share(NeighbourLists& lists, const std::vector<Cut<Dim>>& cuts, const Fields<Dim>& start,
                         double spacing);
 
-/// Order of points along a Morton curve with cells of the given size: order[slot] is the point's index. Ties by index.
-template <int Dim>
-[[nodiscard]] std::vector<std::size_t> curve_order(const std::vector<Vec<double, Dim>>& points, double cell);
+/// Lines between particles that are the same but for the rounding of positions get the same bits; as many kinds as a
+/// lattice has. The opposite line gets the opposite.
+class AlikeBonds {
+ public:
+  explicit AlikeBonds(double spacing) : near_(1e-11 * spacing) {}
+  [[nodiscard]] Vec<double, 2> operator()(const Vec<double, 2>& line);
 
-/// Sliced ELLPACK: per block of lanes as many columns as its longest list; padding refers to the particle itself.
+ private:
+  static constexpr std::size_t most_kinds = 64;
+  double near_;  ///< m
+  std::vector<Vec<double, 2>> kinds_;
+};
+
+/// What a bond has besides its vector.
+enum class Beside : bool { nothing, a_number };
+
+/// Sliced ELLPACK: per block of lanes as many columns as its longest list; padding refers to the particle itself. Where
+/// the neighbours of a column follow one another, as on a lattice in the order of its rows, they are loaded at once.
+/// Blocks whose lanes all have the same bonds share one table of them (a stencil) with all blocks alike.
 template <int Dim>
 struct Bonds {
   std::vector<int> column;     ///< first column of each block, and the end
   std::vector<int> neighbour;  ///< (column, lane)
-  Fields<Dim> weight;
-  Field closeness;
+  std::vector<int> run;        ///< of each column: its first neighbour, where those of all lanes follow it; else -1
+  Fields<Dim> weight;          ///< (column, lane)
+  Field beside;                ///< (column, lane), or empty
+  std::vector<int> shared;     ///< of each block: first entry of its stencil, -1: none
+  Fields<Dim> stencil_weight;  ///< the columns of one stencil after those of another
+  Field stencil_beside;
 
+  /// Finds the stencils; after all weights were written.
+  void share();
+  /// Of a block of which a row was written anew: finds its runs again, its weights are its own from now on.
+  void own(std::size_t block);
+  [[nodiscard]] BondView<Dim> view();
   [[nodiscard]] std::size_t entries() const { return neighbour.size(); }
   /// Place of the k-th neighbour of particle i.
   [[nodiscard]] std::size_t entry(std::size_t i, std::size_t k) const {
@@ -55,8 +79,8 @@ struct ReleasedBond {
   bool pressed;             ///< the crack was under pressure: its faces touch, however far they have been moved apart
 };
 
-/// Lays the lists out; weights are zero, `with_closeness` allocates that field too.
+/// Lays the lists out; weights are zero.
 template <int Dim>
-[[nodiscard]] Bonds<Dim> pack(const NeighbourLists& lists, std::size_t padded, bool with_closeness);
+[[nodiscard]] Bonds<Dim> pack(const NeighbourLists& lists, std::size_t padded, Beside beside);
 
 }  // namespace fpz::sph::detail

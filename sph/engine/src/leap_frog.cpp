@@ -28,7 +28,7 @@ Outcome Engine<Dim>::step() {
   // 1. Positions at n + 1 (eq 31); densities, stresses and cracks there (eq 19, eq 21).
   const Outcome outcome = body->advance();
   if (!outcome.ok()) return outcome;
-  if (control) control->advance(run.dt);
+  if (control) control->let_go(run.dt);
   const std::vector<ReleasedBond<Dim>> released = body->take_released();
   if (contact && !released.empty()) contact->add(released, body->lists());
   // 2. Forces at n + 1 (eq 20), velocities at n + 3/2 (eq 26).
@@ -53,7 +53,6 @@ void Engine<Dim>::kick(double step) {
   view.step = step;
   view.work_before = run.started ? 0.5 * run.dt : 0.0;
   view.work_after = 0.5 * run.dt;
-  if (control) control->act();
   view.pushed = view.pushed || touching || body->pushes();
   if (view.pushed) {
     for (Field& f : run.outer_force) std::fill(f.begin(), f.end(), 0.0);

@@ -3,6 +3,7 @@
 // vectors nor the number of threads changes a bit of the result (contraction to fused operations is switched off).
 #include "fpz/sph/kernel.hpp"
 #include "fpz/sph/lanes.hpp"
+#include "lane_numbers.hpp"
 #include "plane.hpp"
 #include "view.hpp"
 
@@ -37,52 +38,106 @@ FPZ_LANE bool stays_elastic(const V& v, Index i, const Symmetric& s) {
   return (v.kind[i] == kind::elastic) | ((v.kind[i] == kind::intact) & safe);
 }
 
-/// Positions at n + 1 (eq 31) and the velocities there (eq 29: extrapolated, for the viscosity only).
-void drift(const V& v, Index first, Index last) {
-  for (int c = 0; c < 2; ++c) {
-    double* __restrict x = v.position[c];
-    double* __restrict p = v.predicted[c];
-    const double* u = v.velocity[c];
-    const double* a = v.acceleration[c];
-    for (Index i = first * n; i < last * n; ++i) {
-      x[i] += v.step * u[i];
-      p[i] = u[i] + 0.5 * v.step * a[i];
+/// Neighbours that follow one another.
+struct InARow {
+  Index first;
+  FPZ_INLINED Lanes operator()(const double* a) const { return Numbers::load(a + first); }
+  FPZ_INLINED Index operator[](int l) const { return first + l; }
+};
+
+/// Neighbours anywhere.
+struct Scattered {
+  const int* at;
+  FPZ_INLINED Lanes operator()(const double* a) const { return Numbers::gather(a, at); }
+  FPZ_INLINED Index operator[](int l) const { return at[l]; }
+};
+
+/// Calls f(j, m) for each column of block b: j(array) are the numbers of the lanes' neighbours, j[l] is the neighbour
+/// of lane l; m the column's place in the arrays of (column, lane).
+template <class F>
+FPZ_LANE void over_columns(const BondView<2>& v, Index b, F&& f) {
+  for (int k = v.column[b]; k < v.column[b + 1]; ++k) {
+    const Index m = Index{k} * n;
+    if (const int first = v.run[k]; first >= 0) {
+      f(InARow{first}, m);
+    } else {
+      f(Scattered{v.neighbour + m}, m);
     }
+  }
+}
+
+/// Calls f(j, wx, wy, beside) for each column of block b, the last three being numbers of the lanes, or one number for
+/// all of them where the block has a stencil.
+template <class F>
+FPZ_LANE void over_bonds(const BondView<2>& v, Index b, F&& f) {
+  if (const int shared = v.shared[b]; shared >= 0) {
+    const int begin = v.column[b], count = v.column[b + 1] - begin;
+    for (int k = 0; k < count; ++k) {
+      const double beside = v.stencil_beside != nullptr ? v.stencil_beside[shared + k] : 0.0;
+      f(InARow{v.run[begin + k]}, v.stencil_weight[0][shared + k], v.stencil_weight[1][shared + k], beside);
+    }
+  } else {
+    over_columns(v, b, [&](auto j, Index m) FPZ_INLINED {
+      f(j, Numbers::load(v.weight[0] + m), Numbers::load(v.weight[1] + m),
+        v.beside != nullptr ? Numbers::load(v.beside + m) : Lanes{});
+    });
   }
 }
 
 /// Sums over the neighbours of (u_j - u_i) times the bond's weight: the gradient of u in eq 21 before the correction of
 /// eq 17, times V_i.
-FPZ_LANE void difference_sums(const V& v, Index b, const double* ux, const double* uy, double (&xx)[n], double (&xy)[n],
-                              double (&yx)[n], double (&yy)[n]) {
+FPZ_LANE void difference_sums(const BondView<2>& bonds, Index b, double* const (&u)[2], double (&xx)[n],
+                              double (&xy)[n], double (&yx)[n], double (&yy)[n]) {
+  const double *ux = u[0], *uy = u[1];
+  const Lanes own_x = Numbers::load(ux + b * n), own_y = Numbers::load(uy + b * n);
+  Lanes sxx{}, sxy{}, syx{}, syy{};
+  over_bonds(bonds, b, [&](auto j, auto wx, auto wy, auto) FPZ_INLINED {
+    const Lanes dx = j(ux) - own_x, dy = j(uy) - own_y;
+    sxx += dx * wx;
+    sxy += dx * wy;
+    syx += dy * wx;
+    syy += dy * wy;
+  });
+  Numbers::store(sxx, xx);
+  Numbers::store(sxy, xy);
+  Numbers::store(syx, yx);
+  Numbers::store(syy, yy);
+}
+
+/// Displacement gradient at n + 1 that fits the bonds of the zero-energy control best, what it leaves alone; times the
+/// part of its energy that the particle has left.
+FPZ_LANE void gradient_control(const V& v, Index b) {
   const Index o = b * n;
-  for (int k = v.column[b]; k < v.column[b + 1]; ++k) {
-    const Index m = Index{k} * n;
-    const int* j = v.neighbour + m;
-    const double* wx = v.weight[0] + m;
-    const double* wy = v.weight[1] + m;
-    FPZ_LANES {
-      const double dx = ux[j[l]] - ux[o + l];
-      const double dy = uy[j[l]] - uy[o + l];
-      xx[l] += dx * wx[l];
-      xy[l] += dx * wy[l];
-      yx[l] += dy * wx[l];
-      yy[l] += dy * wy[l];
-    }
+  double xx[n], xy[n], yx[n], yy[n];
+  difference_sums(v.control_bonds, b, v.velocity, xx, xy, yx, yy);
+  FPZ_LANES {
+    const Index i = o + l;
+    v.control_displacement[0][i] += v.step * v.velocity[0][i];
+    v.control_displacement[1][i] += v.step * v.velocity[1][i];
+    const double scale = v.step * v.control_share[i];
+    const Symmetric f = {scale * v.control_fit[0][i], scale * v.control_fit[1][i], scale * v.control_fit[2][i]};
+    v.control_gradient[0][i] += xx[l] * f.xx + xy[l] * f.xy;
+    v.control_gradient[1][i] += xx[l] * f.xy + xy[l] * f.yy;
+    v.control_gradient[2][i] += yx[l] * f.xx + yy[l] * f.xy;
+    v.control_gradient[3][i] += yx[l] * f.xy + yy[l] * f.yy;
   }
 }
 
-/// eq 21 in the undeformed body: velocity gradient (corrected, eq 17) -> F, its rotation and stretch, elastic stress
-/// (in place of eq 24, eq 27 and eq 30) and flux of the force; flags the particles that the library must update.
+/// eq 31 and eq 21 in the undeformed body: positions at n + 1; velocity gradient (corrected, eq 17) -> F, its rotation
+/// and stretch, elastic stress (in place of eq 24, eq 27 and eq 30) and flux of the force; flags the particles that the
+/// library must update.
 template <bool Several>
-void gradient_reference(const V& v, Index first, Index last) {
+void strain_reference(const V& view, Index first, Index last) {
+  const V v = view;
   for (Index b = first; b < last; ++b) {
     const Index o = b * n;
-    double xx[n] = {}, xy[n] = {}, yx[n] = {}, yy[n] = {};
-    difference_sums(v, b, v.velocity[0], v.velocity[1], xx, xy, yx, yy);
+    double xx[n], xy[n], yx[n], yy[n];
+    difference_sums(v.bonds, b, v.velocity, xx, xy, yx, yy);
     double raised[n];
     FPZ_LANES {
       const Index i = o + l;
+      v.position[0][i] += v.step * v.velocity[0][i];
+      v.position[1][i] += v.step * v.velocity[1][i];
       const Full c = {v.correction[0][i], v.correction[2][i], v.correction[3][i], v.correction[1][i]};
       const double scale = v.step / v.volume[i];
       const double bxx = v.gradient[0][i] + scale * (xx[l] * c.xx + xy[l] * c.yx);
@@ -112,6 +167,7 @@ void gradient_reference(const V& v, Index first, Index last) {
       raised[l] = take ? 0.0 : 1.0;
     }
     for (int l = 0; l < n; ++l) v.flagged[o + l] = raised[l] != 0.0;
+    if (v.controlled) gradient_control(v, b);
   }
 }
 
@@ -122,8 +178,8 @@ FPZ_LANE void account(double* total, double* next, Index b, const double (&befor
   next[b] = lane_sum(after);
 }
 
-/// Velocity to n + 1/2 from the force at n (eq 23 at the start, then eq 26), with gravity, zero-energy control, forces
-/// of boundaries and local damping.
+/// Velocity to n + 1/2 from the force at n (eq 23 at the start, then eq 26), with gravity, forces of
+/// boundaries and local damping.
 FPZ_LANE void kick(const V& v, Index b, double (&fx)[n], double (&fy)[n]) {
   const Index o = b * n;
   double slow[n], before[n], after[n];
@@ -132,10 +188,6 @@ FPZ_LANE void kick(const V& v, Index b, double (&fx)[n], double (&fy)[n]) {
     const double weight = v.mass[i] * v.weight_scale;
     double gx = fx[l] + weight * v.gravity[0];
     double gy = fy[l] + weight * v.gravity[1];
-    if (v.controlled) {
-      gx += v.zero_energy_force[0][i];
-      gy += v.zero_energy_force[1][i];
-    }
     if (v.pushed) {
       gx += v.outer_force[0][i];
       gy += v.outer_force[1][i];
@@ -164,90 +216,56 @@ FPZ_LANE void kick(const V& v, Index b, double (&fx)[n], double (&fy)[n]) {
   if (v.damped) account(v.damping_work, v.damping_next, b, before, after);
 }
 
+/// Opposes the relative displacements that the gradients of the two ends do not explain: the derivative of
+/// 1/4 sum a_i k_ij |u_j - u_i - G_i r_ij|^2 over all i and j, a_i being what is left of particle i's energy. The
+/// gradients need no derivative because they minimise it.
+FPZ_LANE void add_control(const V& v, Index b, Lanes& fx, Lanes& fy) {
+  const Index o = b * n;
+  const double *ux = v.control_displacement[0], *uy = v.control_displacement[1], *left = v.control_share;
+  const double *gxx = v.control_gradient[0], *gxy = v.control_gradient[1];
+  const double *gyx = v.control_gradient[2], *gyy = v.control_gradient[3];
+  const Lanes own_x = Numbers::load(ux + o), own_y = Numbers::load(uy + o), own_left = Numbers::load(left + o);
+  const Lanes own_xx = Numbers::load(gxx + o), own_xy = Numbers::load(gxy + o), own_yx = Numbers::load(gyx + o),
+              own_yy = Numbers::load(gyy + o);
+  over_bonds(v.control_bonds, b, [&](auto j, auto wx, auto wy, auto stiffness) FPZ_INLINED {
+    const Lanes held = 0.5 * (own_left + j(left)) * stiffness;
+    fx += held * (j(ux) - own_x) - 0.5 * ((own_xx + j(gxx)) * wx + (own_xy + j(gxy)) * wy);
+    fy += held * (j(uy) - own_y) - 0.5 * ((own_yx + j(gyx)) * wx + (own_yy + j(gyy)) * wy);
+  });
+}
+
 /// eq 20: internal force, sum (sigma_i L_i^T + sigma_j L_j^T) w_ij in the undeformed body, with w_ij = V_i V_j grad
 /// W_ij or what takes its place; then kick().
-void force_reference(const V& v, Index first, Index last) {
+void force_reference(const V& view, Index first, Index last) {
+  const V v = view;
   const double *txx = v.flux[0], *txy = v.flux[1], *tyx = v.flux[2], *tyy = v.flux[3];
   for (Index b = first; b < last; ++b) {
     const Index o = b * n;
-    double fx[n] = {}, fy[n] = {};
-    for (int k = v.column[b]; k < v.column[b + 1]; ++k) {
-      const Index m = Index{k} * n;
-      const int* j = v.neighbour + m;
-      const double* wx = v.weight[0] + m;
-      const double* wy = v.weight[1] + m;
-      FPZ_LANES {
-        fx[l] += (txx[o + l] + txx[j[l]]) * wx[l] + (txy[o + l] + txy[j[l]]) * wy[l];
-        fy[l] += (tyx[o + l] + tyx[j[l]]) * wx[l] + (tyy[o + l] + tyy[j[l]]) * wy[l];
-      }
-    }
+    const Lanes own_xx = Numbers::load(txx + o), own_xy = Numbers::load(txy + o), own_yx = Numbers::load(tyx + o),
+                own_yy = Numbers::load(tyy + o);
+    Lanes sx{}, sy{};
+    over_bonds(v.bonds, b, [&](auto j, auto wx, auto wy, auto) FPZ_INLINED {
+      sx += (own_xx + j(txx)) * wx + (own_xy + j(txy)) * wy;
+      sy += (own_yx + j(tyx)) * wx + (own_yy + j(tyy)) * wy;
+    });
+    if (v.controlled) add_control(v, b, sx, sy);
+    double fx[n], fy[n];
+    Numbers::store(sx, fx);
+    Numbers::store(sy, fy);
     kick(v, b, fx, fy);
   }
 }
 
-/// Displacement gradient that fits the bonds of the zero-energy control best, what it leaves alone; times the part of
-/// its energy that the particle has left.
-void gradient_zero_energy(const V& v, Index first, Index last) {
-  const double *x = v.zero_energy_displacement[0], *y = v.zero_energy_displacement[1];
-  for (Index b = first; b < last; ++b) {
-    const Index o = b * n;
-    double xx[n] = {}, xy[n] = {}, yx[n] = {}, yy[n] = {};
-    for (int k = v.zero_energy_column[b]; k < v.zero_energy_column[b + 1]; ++k) {
-      const Index m = Index{k} * n;
-      const int* j = v.zero_energy_neighbour + m;
-      const double* wx = v.zero_energy_weight[0] + m;
-      const double* wy = v.zero_energy_weight[1] + m;
-      FPZ_LANES {
-        const double ux = x[j[l]] - x[o + l];
-        const double uy = y[j[l]] - y[o + l];
-        xx[l] += ux * wx[l];
-        xy[l] += ux * wy[l];
-        yx[l] += uy * wx[l];
-        yy[l] += uy * wy[l];
-      }
-    }
-    FPZ_LANES {
-      const Index i = o + l;
-      const double left = v.zero_energy_share[i];
-      const Symmetric f = {left * v.zero_energy_fit[0][i], left * v.zero_energy_fit[1][i],
-                           left * v.zero_energy_fit[2][i]};
-      v.zero_energy_gradient[0][i] = xx[l] * f.xx + xy[l] * f.xy;
-      v.zero_energy_gradient[1][i] = xx[l] * f.xy + xy[l] * f.yy;
-      v.zero_energy_gradient[2][i] = yx[l] * f.xx + yy[l] * f.xy;
-      v.zero_energy_gradient[3][i] = yx[l] * f.xy + yy[l] * f.yy;
-    }
-  }
-}
-
-/// Opposes the relative displacements that the gradients of the two ends do not explain: the derivative of
-/// 1/4 sum a_i k_ij |u_j - u_i - G_i r_ij|^2 over all i and j, a_i being what is left of particle i's energy. The
-/// gradients need no derivative because they minimise it.
-void force_zero_energy(const V& v, Index first, Index last) {
-  const double *x = v.zero_energy_displacement[0], *y = v.zero_energy_displacement[1];
-  const double *gxx = v.zero_energy_gradient[0], *gxy = v.zero_energy_gradient[1];
-  const double *gyx = v.zero_energy_gradient[2], *gyy = v.zero_energy_gradient[3];
-  const double* left = v.zero_energy_share;
-  for (Index b = first; b < last; ++b) {
-    const Index o = b * n;
-    double fx[n] = {}, fy[n] = {};
-    for (int k = v.zero_energy_column[b]; k < v.zero_energy_column[b + 1]; ++k) {
-      const Index m = Index{k} * n;
-      const int* j = v.zero_energy_neighbour + m;
-      const double* stiffness = v.zero_energy_stiffness + m;
-      const double* wx = v.zero_energy_weight[0] + m;
-      const double* wy = v.zero_energy_weight[1] + m;
-      FPZ_LANES {
-        const Index i = o + l;
-        const double ux = x[j[l]] - x[i];
-        const double uy = y[j[l]] - y[i];
-        const double held = 0.5 * (left[i] + left[j[l]]) * stiffness[l];
-        fx[l] += held * ux - 0.5 * ((gxx[i] + gxx[j[l]]) * wx[l] + (gxy[i] + gxy[j[l]]) * wy[l]);
-        fy[l] += held * uy - 0.5 * ((gyx[i] + gyx[j[l]]) * wx[l] + (gyy[i] + gyy[j[l]]) * wy[l]);
-      }
-    }
-    FPZ_LANES {
-      v.zero_energy_force[0][o + l] = fx[l];
-      v.zero_energy_force[1][o + l] = fy[l];
+/// Positions at n + 1 (eq 31) and the velocities there (eq 29: extrapolated, for the viscosity only).
+void drift_updated(const V& v, Index first, Index last) {
+  for (int c = 0; c < 2; ++c) {
+    double* __restrict x = v.position[c];
+    double* __restrict p = v.predicted[c];
+    const double* u = v.velocity[c];
+    const double* a = v.acceleration[c];
+    for (Index i = first * n; i < last * n; ++i) {
+      x[i] += v.step * u[i];
+      p[i] = u[i] + 0.5 * v.step * a[i];
     }
   }
 }
@@ -256,24 +274,24 @@ void force_zero_energy(const V& v, Index first, Index last) {
 /// stress (eq 21) from n to n + 1, exact for a linear motion: in place of eq 22, eq 25 and eq 28 for the density and of
 /// eq 24, eq 27 and eq 30 for the stress. Flux of the force; flags what the library must update.
 template <Kernel K, bool PaperMomentum, bool Several>
-void gradient_updated(const V& v, Index first, Index last) {
+void strain_updated(const V& view, Index first, Index last) {
+  const V v = view;
   const double *x = v.position[0], *y = v.position[1], *ux = v.velocity[0], *uy = v.velocity[1];
   const double* volume = v.volume;
   for (Index b = first; b < last; ++b) {
     const Index o = b * n;
     double mxx[n] = {}, myy[n] = {}, mxy[n] = {};           // moment matrix of eq 18, times V_i
     double xx[n] = {}, xy[n] = {}, yx[n] = {}, yy[n] = {};  // velocity gradient before correction, times V_i
-    for (int k = v.column[b]; k < v.column[b + 1]; ++k) {
-      const Index m = Index{k} * n;
-      const int* j = v.neighbour + m;
-      double* wx = v.weight[0] + m;
-      double* wy = v.weight[1] + m;
-      double* closeness = v.closeness + m;
+    over_columns(v.bonds, b, [&](auto neighbour, Index m) FPZ_INLINED {
+      double* wx = v.bonds.weight[0] + m;
+      double* wy = v.bonds.weight[1] + m;
+      double* closeness = v.bonds.beside + m;
       FPZ_LANES {
-        const double rx = x[j[l]] - x[o + l];
-        const double ry = y[j[l]] - y[o + l];
+        const Index j = neighbour[l];
+        const double rx = x[j] - x[o + l];
+        const double ry = y[j] - y[o + l];
         const double q = __builtin_sqrt(rx * rx + ry * ry) * v.inverse_smoothing;
-        const double slope = v.slope_norm * (volume[o + l] * volume[j[l]]) * kernel_slope<K>(q);
+        const double slope = v.slope_norm * (volume[o + l] * volume[j]) * kernel_slope<K>(q);
         const double gx = slope * rx;
         const double gy = slope * ry;
         wx[l] = gx;
@@ -282,8 +300,8 @@ void gradient_updated(const V& v, Index first, Index last) {
         const double shape = kernel_shape<K>(q) * v.reference_shape;
         const double near = shape < 1.0 ? shape : 1.0;
         closeness[l] = (near * near) * (near * near);
-        const double dx = ux[j[l]] - ux[o + l];
-        const double dy = uy[j[l]] - uy[o + l];
+        const double dx = ux[j] - ux[o + l];
+        const double dy = uy[j] - uy[o + l];
         mxx[l] += rx * gx;
         myy[l] += ry * gy;
         mxy[l] += rx * gy;
@@ -292,7 +310,7 @@ void gradient_updated(const V& v, Index first, Index last) {
         yx[l] += dy * gx;
         yy[l] += dy * gy;
       }
-    }
+    });
     double raised[n];
     FPZ_LANES {
       const Index i = o + l;
@@ -343,7 +361,8 @@ void gradient_updated(const V& v, Index first, Index last) {
 
 /// eq 20 with artificial viscosity and stress (C_ij); then kick(). The paper's form has L_i on both stresses.
 template <Kernel K, bool PaperMomentum>
-void force_updated(const V& v, Index first, Index last) {
+void force_updated(const V& view, Index first, Index last) {
+  const V v = view;
   const double *txx = v.flux[0], *txy = v.flux[1], *tyx = v.flux[2], *tyy = v.flux[3];
   const double *x = v.position[0], *y = v.position[1], *ux = v.predicted[0], *uy = v.predicted[1];
   const double *rxx = v.artificial[0], *ryy = v.artificial[1], *rxy = v.artificial[2];
@@ -351,36 +370,34 @@ void force_updated(const V& v, Index first, Index last) {
   for (Index b = first; b < last; ++b) {
     const Index o = b * n;
     double fx[n] = {}, fy[n] = {}, vx[n] = {}, vy[n] = {}, ax[n] = {}, ay[n] = {};
-    for (int k = v.column[b]; k < v.column[b + 1]; ++k) {
-      const Index m = Index{k} * n;
-      const int* j = v.neighbour + m;
-      const double* wx = v.weight[0] + m;
-      const double* wy = v.weight[1] + m;
-      const double* closeness = v.closeness + m;
+    over_columns(v.bonds, b, [&](auto neighbour, Index m) FPZ_INLINED {
+      const double* wx = v.bonds.weight[0] + m;
+      const double* wy = v.bonds.weight[1] + m;
+      const double* closeness = v.bonds.beside + m;
       FPZ_LANES {
-        const Index i = o + l;
+        const Index i = o + l, j = neighbour[l];
         double gx = wx[l];
         double gy = wy[l];
         if constexpr (PaperMomentum) {
           gx = v.correction[0][i] * wx[l] + v.correction[2][i] * wy[l];
           gy = v.correction[2][i] * wx[l] + v.correction[1][i] * wy[l];
         }
-        fx[l] += (txx[i] + txx[j[l]]) * gx + (txy[i] + txy[j[l]]) * gy;
-        fy[l] += (tyx[i] + tyx[j[l]]) * gx + (tyy[i] + tyy[j[l]]) * gy;
+        fx[l] += (txx[i] + txx[j]) * gx + (txy[i] + txy[j]) * gy;
+        fy[l] += (tyx[i] + tyx[j]) * gx + (tyy[i] + tyy[j]) * gy;
         // Artificial viscosity, only while the pair approaches; rocks keep their density, its mean of the pair would
         // cost a gather and a division.
-        const double dx = x[j[l]] - x[i];
-        const double dy = y[j[l]] - y[i];
-        const double approach = (ux[j[l]] - ux[i]) * dx + (uy[j[l]] - uy[i]) * dy;
+        const double dx = x[j] - x[i];
+        const double dy = y[j] - y[i];
+        const double approach = (ux[j] - ux[i]) * dx + (uy[j] - uy[i]) * dy;
         const double rate = h * (approach < 0.0 ? approach : 0.0) / (dx * dx + dy * dy + 0.01 * h * h);
         const double pressure = v.rest_density * rate * (v.viscosity_beta * rate - v.viscosity_alpha * v.sound_speed);
         vx[l] -= pressure * gx;
         vy[l] -= pressure * gy;
         const double f = closeness[l];
-        ax[l] += f * ((rxx[i] + rxx[j[l]]) * gx + (rxy[i] + rxy[j[l]]) * gy);
-        ay[l] += f * ((rxy[i] + rxy[j[l]]) * gx + (ryy[i] + ryy[j[l]]) * gy);
+        ax[l] += f * ((rxx[i] + rxx[j]) * gx + (rxy[i] + rxy[j]) * gy);
+        ay[l] += f * ((rxy[i] + rxy[j]) * gx + (ryy[i] + ryy[j]) * gy);
       }
-    }
+    });
     // Half of a force's work is done with the velocity before it, half with the one after it: that of the last step's
     // forces is counted now, with what the groups have made of the velocity.
     double sum_x[n], sum_y[n], viscous[n], artificial[n];
@@ -404,13 +421,8 @@ void force_updated(const V& v, Index first, Index last) {
 }
 
 template <Kernel K, bool PaperMomentum, bool Several>
-constexpr Passes<2> passes = {drift,
-                              gradient_reference<Several>,
-                              force_reference,
-                              gradient_zero_energy,
-                              force_zero_energy,
-                              gradient_updated<K, PaperMomentum, Several>,
-                              force_updated<K, PaperMomentum>};
+constexpr Passes<2> passes = {strain_reference<Several>, force_reference, drift_updated,
+                              strain_updated<K, PaperMomentum, Several>, force_updated<K, PaperMomentum>};
 
 template <bool Several>
 const Passes<2>& choose(int kernel, int momentum) {

@@ -1,5 +1,6 @@
 // The inner loops for this instruction set (flags: CMakeLists.txt).
 #define FPZ_SPH_ISA avx2
+#define FPZ_SPH_WIDTH 4
 #include "passes.inl"
 
 namespace fpz::sph::detail {

@@ -2,6 +2,8 @@
 #pragma once
 
 #define FPZ_LANE static inline __attribute__((always_inline))
+/// The same for lambdas and members.
+#define FPZ_INLINED __attribute__((always_inline))
 
 namespace fpz::sph::detail {
 
@@ -34,12 +36,13 @@ FPZ_LANE Stretch polar(double bxx, double bxy, double byx, double byy) {
   const double c = 2.0 + bxx + byy;
   const double s = byx - bxy;
   const double r = __builtin_sqrt(c * c + s * s);
-  const double inverse = 1.0 / r;
+  const double sum = c > 0.0 ? r + c : 1.0;
+  const double quotient = 1.0 / (r * sum);
+  const double inverse = sum * quotient;
   Stretch p;
   p.cosine = c * inverse;
   p.sine = s * inverse;
-  const double small = -s * s * inverse / (c > 0.0 ? r + c : 1.0);
-  const double cosine_minus_one = c > 0.0 ? small : p.cosine - 1.0;
+  const double cosine_minus_one = c > 0.0 ? -s * s * quotient : p.cosine - 1.0;
   p.strain.xx = cosine_minus_one + (p.cosine * bxx + p.sine * byx);
   p.strain.yy = cosine_minus_one + (p.cosine * byy - p.sine * bxy);
   p.strain.xy = 0.5 * (p.cosine * (bxy + byx) + p.sine * (byy - bxx));

@@ -40,10 +40,8 @@ void ReferenceBody<Dim>::start() {
 template <int Dim>
 Outcome ReferenceBody<Dim>::advance() {
   const RunData<Dim>& run = this->run_;
-  const Outcome outcome = this->strain_with([&run](Index first, Index last) {
-    run.passes->drift(run.view, first, last);
-    run.passes->gradient_reference(run.view, first, last);
-  });
+  const Outcome outcome =
+      this->strain_with([&run](Index first, Index last) { run.passes->strain_reference(run.view, first, last); });
   const Options<Dim>& o = run.setup.options;
   const bool follows = bands_ && o.momentum == MomentumForm::adjoint;
   if (bands_ && run.steps % band_interval == 0) bands_->follow();

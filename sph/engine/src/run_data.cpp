@@ -1,9 +1,9 @@
-// The start of a run: particles in curve order, constants, the choice of the compiled loops.
+// The start of a run: particles in their order, constants, the choice of the compiled loops.
 #include "run_data.hpp"
 
 #include <cmath>
 
-#include "bonds.hpp"
+#include "particle_order.hpp"
 
 #ifdef _OPENMP
 #include <omp.h>
@@ -60,7 +60,7 @@ void RunData<Dim>::place_particles() {
   const Options<Dim>& o = setup.options;
   Particles<Dim>& p = particles;
   p.count = a.size();
-  p.id = curve_order<Dim>(a.position, a.spacing);
+  p.id = particle_order<Dim>(team, a.position, a.spacing);
   slot_of.resize(p.count);
   for (std::size_t i = 0; i < p.count; ++i) slot_of[p.id[i]] = i;
   // Padding lanes: no inverse mass, which is inertia without end.

@@ -10,7 +10,7 @@ namespace fpz::sph {
 
 namespace {
 
-constexpr std::uint64_t magic = 0x384850535a5046ULL;  // "FPZSPH8"; the last figure is the version
+constexpr std::uint64_t magic = 0x394850535a5046ULL;  // "FPZSPH9"; the last figure is the version
 
 /// Adds the options on which the result depends.
 struct OptionPrint {

@@ -22,12 +22,8 @@ void Engine<Dim>::accelerate_from_rest() {
   v.pushed = false;
   for (std::size_t c = 0; c < run.dimensions; ++c) v.gravity[c] = 0.0;
   for (Field& g : p.gradient) std::fill(g.begin(), g.end(), 0.0);
-  run.for_chunks([&](Index first, Index last) { run.passes->gradient_reference(v, first, last); });
-  if (control) {
-    control->forget_displacements();
-    control->advance(1.0);
-    control->act();
-  }
+  if (control) control->forget_displacements();
+  run.for_chunks([&](Index first, Index last) { run.passes->strain_reference(v, first, last); });
   run.for_chunks([&](Index first, Index last) { run.passes->force_reference(v, first, last); });
 }
 

@@ -16,8 +16,8 @@ void UpdatedBody<Dim>::start() {
   const RunData<Dim>& run = this->run_;
   View<Dim> v = run.view;
   v.step = 0.0;
-  run.for_chunks([&](Index first, Index last) { run.passes->drift(v, first, last); });
-  run.for_chunks([&](Index first, Index last) { run.passes->gradient_updated(v, first, last); });
+  run.for_chunks([&](Index first, Index last) { run.passes->drift_updated(v, first, last); });
+  run.for_chunks([&](Index first, Index last) { run.passes->strain_updated(v, first, last); });
 }
 
 template <int Dim>
@@ -25,13 +25,13 @@ Outcome UpdatedBody<Dim>::advance() {
   RunData<Dim>& run = this->run_;
   Particles<Dim>& p = run.particles;
   run.for_chunks([&](Index first, Index last) {
-    run.passes->drift(run.view, first, last);
+    run.passes->drift_updated(run.view, first, last);
     for (std::size_t i = lanes_begin(first); i < lanes_begin(last); ++i) {
       p.volume[i] = p.mass[i] * run.view.weight_scale / p.density[i];
     }
   });
   if (outdated()) rebuild();
-  return this->strain_with([&run](Index first, Index last) { run.passes->gradient_updated(run.view, first, last); });
+  return this->strain_with([&run](Index first, Index last) { run.passes->strain_updated(run.view, first, last); });
 }
 
 template <int Dim>
@@ -83,7 +83,7 @@ void UpdatedBody<Dim>::rebuild() {
   this->lists_ = find_neighbours<Dim>(this->run_.team, p.position, p.count, kernel_support * run.h + skin);
   separate<Dim>(this->lists_, run.setup.arrangement.cuts, p.start);
   run.keep_apart(this->lists_);
-  this->bonds_ = pack<Dim>(this->lists_, p.padded(), true);
+  this->bonds_ = pack<Dim>(this->lists_, p.padded(), Beside::a_number);
   this->point_bonds();
   built_at_ = p.position;
   ++this->builds_;
@@ -108,7 +108,7 @@ bool UpdatedBody<Dim>::outdated() const {
 template <int Dim>
 void UpdatedBody<Dim>::load(Reader& archive) {
   transfer_state(archive, *this);
-  this->bonds_ = pack<Dim>(this->lists_, this->run_.particles.padded(), true);
+  this->bonds_ = pack<Dim>(this->lists_, this->run_.particles.padded(), Beside::a_number);
   this->point_bonds();
 }
 

@@ -6,18 +6,29 @@
 
 namespace fpz::sph::detail {
 
+/// Block b owns the columns column[b] .. column[b+1]; entry (column, lane) is at column * lanes + lane. Padding: the
+/// particle itself, weight 0. See Bonds (bonds.hpp).
+template <int Dim>
+struct BondView {
+  static constexpr auto d = static_cast<std::size_t>(Dim);
+  const int* column = nullptr;
+  const int* neighbour = nullptr;
+  const int* run = nullptr;     // of each column: the first neighbour where those of the lanes follow it, else -1
+  const int* shared = nullptr;  // of each block: its place among the stencils, else -1
+  double* weight[d] = {};
+  double* beside = nullptr;
+  const double* stencil_weight[d] = {};
+  const double* stencil_beside = nullptr;
+};
+
 template <int Dim>
 struct View {
   static constexpr auto d = static_cast<std::size_t>(Dim);
   static constexpr std::size_t tensor = d * (d + 1) / 2;
 
-  // Bonds: block b owns the columns column[b] .. column[b+1]; entry (column, lane) is at column * lanes + lane.
-  // weight = V_i V_j grad_i W_ij or what takes its place (bond_vectors.hpp; paper's momentum: L_i times that). Padding:
-  // the particle itself, weight 0.
-  const int* column = nullptr;
-  const int* neighbour = nullptr;
-  double* weight[d] = {};
-  double* closeness = nullptr;  // updated: (W_ij / W(spacing))^n
+  // weight = V_i V_j grad_i W_ij or what takes its place (bond_vectors.hpp; paper's momentum: L_i times that); beside,
+  // in updated: (W_ij / W(spacing))^n.
+  BondView<Dim> bonds;
 
   const double* start[d] = {};
   double* position[d] = {};
@@ -38,16 +49,12 @@ struct View {
   double* artificial[tensor] = {};
   double* gradient[d * d] = {};
   double* flux[d * d] = {};
-  // Reference: the zero-energy control, with bonds of its own, packed as above.
-  const int* zero_energy_column = nullptr;
-  const int* zero_energy_neighbour = nullptr;
-  const double* zero_energy_stiffness = nullptr;  // k_ij, N/m
-  const double* zero_energy_weight[d] = {};       // k_ij r_ij, N
-  const double* zero_energy_fit[tensor] = {};     // inverse of sum k_ij r_ij (x) r_ij
-  const double* zero_energy_share = nullptr;      // part of its energy that a particle has left
-  double* zero_energy_displacement[d] = {};
-  double* zero_energy_gradient[d * d] = {};
-  double* zero_energy_force[d] = {};
+  // Reference: the zero-energy control, with bonds of its own: weight = k_ij r_ij (N), beside = k_ij (N/m).
+  BondView<Dim> control_bonds;
+  const double* control_fit[tensor] = {};  // inverse of sum k_ij r_ij (x) r_ij
+  const double* control_share = nullptr;   // part of its energy that a particle has left
+  double* control_displacement[d] = {};
+  double* control_gradient[d * d] = {};  // times the share
   double* rotation[2] = {};
   const double* damping[d] = {};      // per component: 1, zero where the velocity is driven
   const double* outer_force[d] = {};  // of boundaries that push and of closed faces
@@ -88,13 +95,11 @@ using Index = std::ptrdiff_t;
 template <int Dim>
 struct Passes {
   using Pass = void (*)(const View<Dim>&, Index first, Index last);
-  Pass drift;                 ///< position += step velocity; predicted velocity of the full step
-  Pass gradient_reference;    ///< velocity gradient -> F, rotation, strain, elastic stress, flux, onset flags
-  Pass force_reference;       ///< internal force, damping, kick
-  Pass gradient_zero_energy;  ///< reference: displacement gradient that fits the bonds of the zero-energy control
-  Pass force_zero_energy;     ///< reference: what opposes displacements beyond that gradient
-  Pass gradient_updated;      ///< kernel, L_i, velocity gradient -> density, rotated stress, flux, onset flags
-  Pass force_updated;         ///< the same with artificial viscosity and stress
+  Pass strain_reference;  ///< positions, velocity gradient -> F, rotation, strain, elastic stress, flux, onset flags
+  Pass force_reference;   ///< internal force with that of the zero-energy control, damping, kick
+  Pass drift_updated;     ///< position += step velocity; predicted velocity of the full step
+  Pass strain_updated;    ///< kernel, L_i, velocity gradient -> density, rotated stress, flux, onset flags
+  Pass force_updated;     ///< internal force with artificial viscosity and stress, damping, kick
 };
 
 /// The loops of one instruction set, for a kernel, a momentum form, and one material or several.

@@ -26,34 +26,31 @@ ZeroEnergyControl<Dim>::ZeroEnergyControl(RunData<Dim>& run, double strength) : 
                                 kernel_support * control_smoothing * run.setup.arrangement.spacing);
   separate<Dim>(lists_, run.setup.arrangement.cuts, p.start);
   run.keep_apart(lists_);
-  bonds_ = pack<Dim>(lists_, p.padded(), false);
-  stiffness_.assign(bonds_.entries(), 0.0);
+  bonds_ = pack<Dim>(lists_, p.padded(), Beside::a_number);
   fields(*this, Allocate{p.padded()});
   fields(*this, Point<Dim>{run.view});
-  for (std::size_t i = 0; i < p.count; ++i) write_row(i);
-  View<Dim>& v = run.view;
-  v.zero_energy_column = bonds_.column.data();
-  v.zero_energy_neighbour = bonds_.neighbour.data();
-  v.zero_energy_stiffness = stiffness_.data();
-  for (std::size_t c = 0; c < run.dimensions; ++c) v.zero_energy_weight[c] = bonds_.weight[c].data();
-  v.controlled = true;
+  AlikeBonds alike(run.setup.arrangement.spacing);
+  for (std::size_t i = 0; i < p.count; ++i) write_row(i, alike);
+  bonds_.share();
+  run.view.control_bonds = bonds_.view();
+  run.view.controlled = true;
 }
 
 template <int Dim>
-void ZeroEnergyControl<Dim>::write_row(std::size_t i) {
+void ZeroEnergyControl<Dim>::write_row(std::size_t i, AlikeBonds& alike) {
   const Particles<Dim>& p = run_.particles;
   const double h = control_smoothing * run_.setup.arrangement.spacing;
   const double norm = strength_ * kernel_norm<Dim>(Kernel::cubic_spline, h) / (h * h);
   Symmetric moment = {0.0, 0.0, 0.0};
   for (std::size_t k = 0; k < lists_[i].size(); ++k) {
     const auto j = static_cast<std::size_t>(lists_[i][k]);
-    const double rx = p.start[0][j] - p.start[0][i];
-    const double ry = p.start[1][j] - p.start[1][i];
+    const Vec<double, Dim> r = alike(Vec<double, Dim>(p.start[0][j] - p.start[0][i], p.start[1][j] - p.start[1][i]));
+    const double rx = r[0], ry = r[1];
     const double q = std::sqrt(rx * rx + ry * ry) / h;
     const double modulus = run_.materials.equally_stiff(i, j) ? run_.materials.confined_modulus(i) : 0.0;
     const double stiffness = norm * modulus * (p.volume[i] * p.volume[j]) * kernel_slope(Kernel::cubic_spline, q);
     const std::size_t entry = bonds_.entry(i, k);
-    stiffness_[entry] = stiffness;
+    bonds_.beside[entry] = stiffness;
     bonds_.weight[0][entry] = stiffness * rx;
     bonds_.weight[1][entry] = stiffness * ry;
     moment.xx += stiffness * rx * rx;
@@ -84,52 +81,29 @@ std::vector<std::size_t> ZeroEnergyControl<Dim>::opened_further() const {
   return list;
 }
 
+/// A force that is gone at the end of the step has done the work of its beginning for half of the way: so the energy of
+/// the middle is what is lost.
 template <int Dim>
-void ZeroEnergyControl<Dim>::move(double step) {
-  const Particles<Dim>& p = run_.particles;
-  run_.for_chunks([&](Index first, Index last) {
-    for (std::size_t c = 0; c < run_.dimensions; ++c) {
-      for (std::size_t i = lanes_begin(first); i < lanes_begin(last); ++i) {
-        displacement_[c][i] += step * p.velocity[c][i];
-      }
-    }
-  });
-}
-
-template <int Dim>
-void ZeroEnergyControl<Dim>::advance(double step) {
-  const std::vector<std::size_t> opened = opened_further();
-  if (opened.empty()) {
-    move(step);
-    return;
-  }
-  // A force that is gone at the end of the step has done the work of its beginning for half of the way: so the energy
-  // of the middle is what is lost.
-  move(0.5 * step);
+void ZeroEnergyControl<Dim>::let_go(double step) {
   double& lost = run_.ledger.zero_energy;
-  for (const std::size_t i : opened) {
-    lost += stored_at(i);
+  for (const std::size_t i : opened_further()) {
+    const double left = share_of(i) / share_[i];
+    lost += (1.0 - left) * stored_at(i, 0.5 * step);
     share_[i] = share_of(i);
-    lost -= stored_at(i);
+    for (Field& g : gradient_) g[i] *= left;
   }
-  move(0.5 * step);
-}
-
-template <int Dim>
-void ZeroEnergyControl<Dim>::act() {
-  run_.for_chunks([&](Index first, Index last) { run_.passes->gradient_zero_energy(run_.view, first, last); });
-  run_.for_chunks([&](Index first, Index last) { run_.passes->force_zero_energy(run_.view, first, last); });
 }
 
 template <int Dim>
 void ZeroEnergyControl<Dim>::forget_displacements() {
   for (Field& u : displacement_) std::fill(u.begin(), u.end(), 0.0);
+  for (Field& g : gradient_) std::fill(g.begin(), g.end(), 0.0);
 }
 
 template <int Dim>
 double ZeroEnergyControl<Dim>::stored() const {
   double sum = 0.0;
-  for (std::size_t i = 0; i < run_.particles.count; ++i) sum += stored_at(i);
+  for (std::size_t i = 0; i < run_.particles.count; ++i) sum += stored_at(i, 0.0);
   return sum;
 }
 
@@ -139,26 +113,27 @@ double ZeroEnergyControl<Dim>::alternation() const {
   for (std::size_t i = 0; i < run_.particles.count; ++i) {
     if (share_[i] < 1.0) continue;
     double stiffness = 0.0;
-    for (std::size_t k = 0; k < lists_[i].size(); ++k) stiffness += stiffness_[bonds_.entry(i, k)];
-    if (stiffness > 0.0) most = std::max(most, 4.0 * stored_at(i) / stiffness);
+    for (std::size_t k = 0; k < lists_[i].size(); ++k) stiffness += bonds_.beside[bonds_.entry(i, k)];
+    if (stiffness > 0.0) most = std::max(most, 4.0 * stored_at(i, 0.0) / stiffness);
   }
   return std::sqrt(most);
 }
 
 template <int Dim>
-double ZeroEnergyControl<Dim>::stored_at(std::size_t i) const {
+double ZeroEnergyControl<Dim>::stored_at(std::size_t i, double before) const {
+  const Fields<Dim>& u = run_.particles.velocity;
   Full s = {0.0, 0.0, 0.0, 0.0};  // sum k_ij (u_j - u_i) (x) r_ij, and of k_ij |u_j - u_i|^2:
   double whole = 0.0;
   for (std::size_t k = 0; k < lists_[i].size(); ++k) {
     const auto j = static_cast<std::size_t>(lists_[i][k]);
     const std::size_t entry = bonds_.entry(i, k);
-    const double ux = displacement_[0][j] - displacement_[0][i];
-    const double uy = displacement_[1][j] - displacement_[1][i];
+    const double ux = (displacement_[0][j] - displacement_[0][i]) - before * (u[0][j] - u[0][i]);
+    const double uy = (displacement_[1][j] - displacement_[1][i]) - before * (u[1][j] - u[1][i]);
     s.xx += ux * bonds_.weight[0][entry];
     s.xy += ux * bonds_.weight[1][entry];
     s.yx += uy * bonds_.weight[0][entry];
     s.yy += uy * bonds_.weight[1][entry];
-    whole += stiffness_[entry] * (ux * ux + uy * uy);
+    whole += bonds_.beside[entry] * (ux * ux + uy * uy);
   }
   // What a least-squares fit leaves is the whole less what it explains.
   const Symmetric f = {fit_[0][i], fit_[1][i], fit_[2][i]};

@@ -23,11 +23,8 @@ class ZeroEnergyControl {
   /// `strength`: stiffness in units of lambda + 2 mu, > 0.
   ZeroEnergyControl(RunData<Dim>& run, double strength);
 
-  /// Moves the displacements on by `step` (s) with the velocities at n - 1/2 and lets go where a crack has
-  /// opened further.
-  void advance(double step);
-  /// Its force at n, which the kick then adds to the others.
-  void act();
+  /// Lets go where a crack has opened further in the step (s) to n, for which the loops have moved the displacements.
+  void let_go(double step);
   /// Energy that it holds at n, J.
   [[nodiscard]] double stored() const;
   /// Largest over the particles with all of their energy: root mean square of |u_j - u_i - G_i r_ij|, weighted with
@@ -39,38 +36,32 @@ class ZeroEnergyControl {
   static void fields(Self& self, Visit&& visit) {
     using V = View<Dim>;
     constexpr Extent each = Extent::particle;
-    visit(FieldInfo{"zero_energy_fit", each, Keep::constant}, self.fit_, &V::zero_energy_fit);
-    visit(FieldInfo{"zero_energy_share", each, Keep::saved, 1.0}, self.share_, &V::zero_energy_share);
-    visit(FieldInfo{"zero_energy_displacement", each, Keep::saved}, self.displacement_, &V::zero_energy_displacement);
-    visit(FieldInfo{"zero_energy_gradient", each, Keep::passing}, self.gradient_, &V::zero_energy_gradient);
-    visit(FieldInfo{"zero_energy_force", each, Keep::passing}, self.force_, &V::zero_energy_force);
+    visit(FieldInfo{"zero_energy_fit", each, Keep::constant}, self.fit_, &V::control_fit);
+    visit(FieldInfo{"zero_energy_share", each, Keep::saved, 1.0}, self.share_, &V::control_share);
+    visit(FieldInfo{"zero_energy_displacement", each, Keep::saved}, self.displacement_, &V::control_displacement);
+    visit(FieldInfo{"zero_energy_gradient", each, Keep::saved}, self.gradient_, &V::control_gradient);
   }
   void save(Writer& archive) const { fields(*this, Transfer<Writer>{archive}); }
-  void load(Reader& archive) {
-    fields(*this, Transfer<Reader>{archive});
-    fields(*this, Spoil{run_.particles.count});
-  }
+  void load(Reader& archive) { fields(*this, Transfer<Reader>{archive}); }
 
  private:
   /// Writes the stiffness of the bonds that particle i has, and what fits a gradient to them.
-  void write_row(std::size_t i);
+  void write_row(std::size_t i, AlikeBonds& alike);
   /// Part of its energy that is left to the cracked particle i with its damage and H.
   [[nodiscard]] double share_of(std::size_t i) const;
   /// Particles with more left than their share.
   [[nodiscard]] std::vector<std::size_t> opened_further() const;
-  void move(double step);
-  [[nodiscard]] double stored_at(std::size_t i) const;
+  /// Energy of a particle, J, `before` (s) the end of the step.
+  [[nodiscard]] double stored_at(std::size_t i, double before) const;
 
   RunData<Dim>& run_;
   double strength_;                ///< stiffness in units of lambda + 2 mu
   NeighbourLists lists_;           ///< nearest neighbours at the start
-  Bonds<Dim> bonds_;               ///< weight: k_ij r_ij
-  Field stiffness_;                ///< k_ij, N/m, beside the weights
+  Bonds<Dim> bonds_;               ///< weight: k_ij r_ij, N; beside: k_ij, N/m
   Field share_;                    ///< a_i: the least share_of() since the start
   Fields<Dim*(Dim + 1) / 2> fit_;  ///< inverse of sum k_ij r_ij (x) r_ij, zero without a gradient
   Fields<Dim> displacement_;       ///< since the start: as a sum, without the rounding of positions
-  Fields<Dim * Dim> gradient_;     ///< G_i
-  Fields<Dim> force_;              ///< N
+  Fields<Dim * Dim> gradient_;     ///< a_i G_i
 };
 
 }  // namespace fpz::sph::detail
