@@ -21,16 +21,19 @@ extern "C" {
  * properties, the layout of the state, or a function below. */
 #define FPZ_INTERFACE_VERSION 1
 
-typedef enum { FPZ_PLANE_STRAIN = 0, FPZ_PLANE_STRESS = 1, FPZ_THREE_D = 2 } fpz_setting;
+/* Enumerations are plain integers where they are passed, for callers in other languages. */
+enum { FPZ_PLANE_STRAIN = 0, FPZ_PLANE_STRESS = 1, FPZ_THREE_D = 2 };
+typedef int fpz_setting;
 
 /* The outcome of a call. After anything but FPZ_OK the state is what it was. */
-typedef enum {
+enum {
   FPZ_OK = 0,
   FPZ_NON_CONVERGENCE = 1, /* the integrator failed: a smaller increment, or the integrator "accurate" */
   FPZ_SNAP_BACK = 2,       /* no unique solution under strain control: a smaller rve_length */
   FPZ_NO_PLASTIC_FLOW = 3, /* dilation angle 0 and pure opening */
   FPZ_INVALID_INPUT = 4    /* a number that is not finite, an array that is not a state, a material that cannot be */
-} fpz_status;
+};
+typedef int fpz_status;
 
 typedef struct fpz_material fpz_material;
 

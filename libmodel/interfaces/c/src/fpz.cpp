@@ -94,7 +94,12 @@ int fpz_interface_version(void) { return FPZ_INTERFACE_VERSION; }
 
 const char* fpz_version(void) { return FPZ_VERSION; }
 
-const char* fpz_status_word(fpz_status status) { return to_string(static_cast<Status>(status)); }
+const char* fpz_status_word(fpz_status status) {
+  for (const Word<Status>& w : Words<Status>::list) {
+    if (static_cast<int>(w.value) == status) return w.text;
+  }
+  return "unknown";
+}
 
 const char* fpz_message(void) { return point::last_message().c_str(); }
 
