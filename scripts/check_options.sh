@@ -22,6 +22,7 @@ expected_programs() {
     if has "$1" DRIVER; then echo fpz-driver; fi
     if has "$1" CALIBRATION; then printf '%s\n' fpz-calibrate fpz-notched-reference; fi
     if has "$1" SPH; then printf '%s\n' fpz-patch-report fpz-sph fpz-sph-report; fi
+    if has "$1" INTERFACES; then echo fpz-fe-beam; fi
     if has "$1" BENCH; then printf '%s\n' fpz-bench fpz-speed-report; fi
     if has "$1" BENCH && has "$1" SPH; then echo fpz-sph-bench; fi
     if has "$1" BENCH && has "$1" INTERFACES; then echo fpz-interface-bench; fi
