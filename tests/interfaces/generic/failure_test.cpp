@@ -70,8 +70,8 @@ TEST(GenericFailure, MissingDataAreNamed) {
       k.data(),
       nullptr,
       nullptr,
-      {c.g0.data(), c.f0.data(), nullptr, c.properties.data(), c.i0.data(), nullptr, nullptr, nullptr},
-      {c.g1.data(), out.data(), nullptr, nullptr, internal.data(), nullptr, nullptr, nullptr}};
+      {c.g0.data(), c.f0.data(), nullptr, nullptr, c.i0.data(), nullptr, nullptr, nullptr},
+      {c.g1.data(), out.data(), nullptr, c.properties.data(), internal.data(), nullptr, nullptr, nullptr}};
   test::ClientData d = good;
   EXPECT_EQ(f(&d), 1);  // rdt, energies, densities are not needed
   const auto expect = [&](const char* word) {
@@ -87,7 +87,7 @@ TEST(GenericFailure, MissingDataAreNamed) {
   expect("thermodynamic forces at the begin");
   d.s1.forces = nullptr;
   expect("thermodynamic forces at the end");
-  d.s0.material_properties = nullptr;
+  d.s1.material_properties = nullptr;
   expect("material properties");
   d.s0.internal = nullptr;
   expect("internal state variables at the begin");

@@ -99,8 +99,8 @@ struct Client {
                  k.data(),
                  &rdt,
                  wanted > 50.0 ? &sound : nowhere,
-                 {g0.data(), f0.data(), nowhere, properties.data(), i0.data(), &stored0, &dissipated0, nowhere},
-                 {g1.data(), f1.data(), nowhere, nowhere, i1.data(), &stored1, &dissipated1, nowhere}};
+                 {g0.data(), f0.data(), nowhere, nowhere, i0.data(), &stored0, &dissipated0, nowhere},
+                 {g1.data(), f1.data(), nowhere, properties.data(), i1.data(), &stored1, &dissipated1, nowhere}};
     return f(&d);
   }
 

@@ -27,8 +27,8 @@ TEST(GenericUntouched, NothingUnsetIsUsed) {
           k.get(),
           nullptr,
           &unset[1],
-          {g0.data(), f0.data(), &unset[2], properties.data(), i0.data(), &energy[0], &energy[1], &unset[3]},
-          {g1.data(), f1.get(), &unset[4], &unset[5], i1.get(), &energy[2], &energy[3], &unset[6]}};
+          {g0.data(), f0.data(), &unset[2], &unset[5], i0.data(), &energy[0], &energy[1], &unset[3]},
+          {g1.data(), f1.get(), &unset[4], properties.data(), i1.get(), &energy[2], &energy[3], &unset[6]}};
       ASSERT_EQ(f(&d), 1);
       double sum = 0.0;
       if (wanted != 0.0) sum += std::accumulate(k.get(), k.get() + 36, 0.0);

@@ -40,7 +40,7 @@ template <int Dim>
 void check_initial_stress(const point::Behaviour& b, const State<double, Dim>& s) {
   const double strength = b.parameters.tensile_strength;
   if (!s.cracked) {
-    if (find_plane<Dim>(b.material, b.options, s.stress).failure_value <= 1e-9 * strength) return;
+    if (find_plane<Dim>(b.material, b.options, s.stress).failure_value <= 1e-6 * strength) return;
     throw std::invalid_argument(
         "invalid_input: the stress at the begin of the step is an initial stress (it is not that of the strain) and "
         "lies beyond the strength: start from a smaller one and load the point");

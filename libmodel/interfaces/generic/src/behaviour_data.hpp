@@ -7,8 +7,8 @@ namespace fpz::generic {
 struct BeginState {
   const double* gradients;
   const double* thermodynamic_forces;
-  const double* mass_density;  ///< never read: some clients leave it uninitialised
-  const double* material_properties;
+  const double* mass_density;         ///< never read: some clients leave it uninitialised
+  const double* material_properties;  ///< never read: those of the end hold during the step, as in MFront
   const double* internal_state_variables;
   const double* stored_energy;             ///< J/m^3; may be null
   const double* dissipated_energy;         ///< J/m^3; may be null
@@ -19,8 +19,8 @@ struct BeginState {
 struct EndState {
   const double* gradients;
   double* thermodynamic_forces;
-  const double* mass_density;         ///< never read
-  const double* material_properties;  ///< never read: those of the begin hold during the step
+  const double* mass_density;  ///< never read
+  const double* material_properties;
   double* internal_state_variables;
   double* stored_energy;      ///< J/m^3; may be null
   double* dissipated_energy;  ///< J/m^3; may be null

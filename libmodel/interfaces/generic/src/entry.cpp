@@ -44,7 +44,7 @@ void check_pointers(const BehaviourData& d, const Request& r) {
   require(d.s0.gradients, "gradients at the begin");
   require(d.s0.thermodynamic_forces, "thermodynamic forces at the begin");
   require(d.s0.internal_state_variables, "internal state variables at the begin");
-  require(d.s0.material_properties, "material properties at the begin");
+  require(d.s1.material_properties, "material properties at the end");
   if (r.speed_of_sound) require(d.speed_of_sound, "place for the speed of sound");
   if (!r.integrate) return;
   require(d.s1.gradients, "gradients at the end");
@@ -101,8 +101,8 @@ int integrate(const point::Behaviour& b, const Request& request, const BeginPoin
 template <int Dim>
 int answer(Setting setting, BehaviourData& d, const Request& request) {
   check_pointers(d, request);
-  const auto list = full_list(d.s0.material_properties);
-  const point::Behaviour& b = point::behaviour_of(setting, list, d.s0.material_properties[length_place]);
+  const auto list = full_list(d.s1.material_properties);
+  const point::Behaviour& b = point::behaviour_of(setting, list, d.s1.material_properties[length_place]);
   const BeginPoint<Dim> begin = begin_point<Dim>(b, d.s0);
   if (!request.integrate) {
     write_operator<Dim>(b, other_operator<Dim>(b, begin.state, request.wanted), d.K);
