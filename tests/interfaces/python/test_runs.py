@@ -92,6 +92,11 @@ class Paths(unittest.TestCase):
         self.assertGreater(len(caught.exception.result.history), 2)
         self.assertEqual(quiet(fpz.run_path, file, check=False).status, "snap_back")
 
+    def test_warnings_are_at_the_callers_line(self):
+        with self.assertWarnsRegex(fpz.FpzWarning, "johnstone.json:15: shear_stiffness") as caught:
+            fpz.run_path(self.FILE)
+        self.assertEqual(os.path.basename(caught.filename), "test_runs.py")
+
     def test_progress_is_told_and_can_stop(self):
         path = json.loads(self.FILE.read_text(encoding="utf-8"))
         path["stages"] = [{"increments": 3000000, "strain_increment": {"xx": 1e-12}}]

@@ -76,10 +76,10 @@ class Stub(unittest.TestCase):
 
     def test_all_is_complete(self):
         public = {n for n, v in vars(fpz).items() if not n.startswith("_") and not inspect.ismodule(v)}
-        self.assertEqual(public | {"__version__"}, set(fpz.__all__))
+        self.assertEqual(public | {"__version__", "plot"}, set(fpz.__all__))
 
     def test_python_files_are_typed(self):
-        for name in ("_runs", "_json", "_errors"):
+        for name in ("_runs", "_json", "_errors", "plot"):
             tree = ast.parse(STUB.with_name(name + ".py").read_text(encoding="utf-8"))
             for node in ast.walk(tree):
                 if isinstance(node, ast.FunctionDef):

@@ -10,6 +10,7 @@ SI units (angles in degrees), tension positive, shear strains are tensor compone
 in plane strain and plane stress; xx, yy, zz, xy, xz, yz in 3-D. Guide: docs/interface-python.md.
 """
 
+from . import plot
 from ._core import (
     BatchReport,
     Material,
@@ -51,6 +52,7 @@ __all__ = [
     "calibrate",
     "critical_plane",
     "failure_values",
+    "plot",
     "read_frame",
     "run_path",
     "run_paths",

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import os
+import sys
+import warnings
 from typing import Any
 
 
@@ -39,3 +42,12 @@ class RunError(FpzError, RuntimeError):
 
 class FpzWarning(UserWarning):
     """Something admissible that is probably a slip."""
+
+
+def warn(lines: list[str]) -> None:
+    """Each line as an FpzWarning at the first line of the call stack that is not of this package."""
+    here, level, frame = os.path.dirname(__file__), 1, sys._getframe()
+    while frame is not None and os.path.dirname(frame.f_code.co_filename) == here:
+        level, frame = level + 1, frame.f_back
+    for line in lines:
+        warnings.warn(line, FpzWarning, stacklevel=level)

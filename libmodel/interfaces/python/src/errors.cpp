@@ -7,7 +7,9 @@ namespace fpz::python {
 
 namespace {
 
-py::object error_class(const char* name) { return py::module_::import("fpz._errors").attr(name); }
+py::module_ errors_module() { return py::module_::import("fpz._errors"); }
+
+py::object error_class(const char* name) { return errors_module().attr(name); }
 
 }  // namespace
 
@@ -32,10 +34,9 @@ void raise_update_error(const std::string& message, Status status, std::optional
 
 void warn(const std::vector<std::string>& lines) {
   if (lines.empty()) return;
-  const py::object type = error_class("FpzWarning");
-  for (const std::string& line : lines) {
-    if (PyErr_WarnEx(type.ptr(), line.c_str(), 1) != 0) throw py::error_already_set();
-  }
+  py::list list;
+  for (const std::string& line : lines) list.append(line);
+  errors_module().attr("warn")(list);
 }
 
 std::string without_line(std::string text, const std::string& origin) {
