@@ -146,7 +146,7 @@ TEST(GenericFailure, MaterialFaultsNameTheProperty) {
 
 // An initial stress makes no strain. The point behaves as one that was strained into that stress.
 TEST(GenericInitialStress, IsAsIfThePointHadBeenStrainedIntoIt) {
-  for (const char* hypothesis : {"PlaneStrain", "GeneralisedPlaneStrain", "PlaneStress"}) {
+  for (const char* hypothesis : {"Tridimensional", "PlaneStrain", "GeneralisedPlaneStrain", "PlaneStress"}) {
     Client strained(hypothesis, test::table1()), stressed(hypothesis, test::table1());
     test::add_strain<2>(strained.g1, test::strain2(-2e-4, -5e-4, 1e-4));
     ASSERT_EQ(strained.call(0), 1);
