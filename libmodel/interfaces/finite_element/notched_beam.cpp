@@ -1,7 +1,7 @@
 // A finite-element program around the library, in one file: a notched beam under three-point bending, constant-strain
 // triangles with a fracture process zone embedded in each, quasi-static, the opening of the notch prescribed.
 //
-//   fpz-fe-beam SIZE OUT.csv [INTEGRATOR]
+//   fpz-fe-beam SIZE OUT.csv [INTEGRATOR [own_planes]]
 //
 // SIZE is that of the elements, m; it must divide the length of the notch. What to look at: element_length(), the H of
 // an element from its plane; Beam::place_zones(), which plane; Beam::assemble(), where the library is called;
@@ -17,6 +17,7 @@
 #include <fstream>
 #include <iostream>
 #include <optional>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -135,8 +136,12 @@ struct Convergence {
 
 class Beam {
  public:
-  Beam(double size, const fpz::Options& options)
-      : options_(options), size_(size), mesh_(make_mesh(size)), displacement_(Vector::Zero(2 * count())) {
+  Beam(double size, const fpz::Options& options, bool own_planes)
+      : options_(options),
+        size_(size),
+        own_planes_(own_planes),
+        mesh_(make_mesh(size)),
+        displacement_(Vector::Zero(2 * count())) {
     load_ = Vector::Zero(2 * count());
     add_pressure(mesh_.rows - 1, 0.0, -1.0);
     add_pressure(0, -half_span, 0.5);
@@ -237,7 +242,8 @@ class Beam {
   /// Gives every element that is close to onset a zone that is still whole, and so does nothing until it yields, on a
   /// plane that is critical for the mean stress around. A triangle's own stress has a spurious shear where a crack
   /// opens like a hinge; a zone on the plane of that stress opens across its neighbours' and locks. H belongs to the
-  /// plane, and neither may change in the iterations, or the tangent would not be theirs.
+  /// plane, and neither may change in the iterations, or the tangent would not be theirs. With `own_planes` the plane
+  /// is that of the element's own stress all the same, for comparison.
   void place_zones() {
     std::vector<std::pair<Triangle*, fpz::State2>> fresh;
     const double close = 0.2 * concrete().tensile_strength;
@@ -246,7 +252,7 @@ class Beam {
       if (s.cracked || fpz::critical_plane<2>(t.material, s.stress).failure_value < -close) continue;
       fpz::State2 whole = s;
       whole.cracked = true;
-      whole.frame = fpz::critical_plane<2>(t.material, mean_stress(centre(t))).frame;
+      whole.frame = fpz::critical_plane<2>(t.material, own_planes_ ? s.stress : mean_stress(centre(t))).frame;
       whole.crack = fpz::cracked_at<double, 2>(t.material.law, fpz::local_traction<double, 2>(whole.frame, s.stress));
       fresh.emplace_back(&t, whole);
     }
@@ -325,6 +331,7 @@ class Beam {
 
   fpz::Options options_;
   double size_;
+  bool own_planes_;
   Mesh mesh_;
   Vector displacement_, load_, force_;
   double factor_ = 0.0;
@@ -398,12 +405,13 @@ int main(int argc, char** argv) {
   const auto method = fpz::from_word<fpz::Method>(argc > 3 ? argv[3] : "accurate");
   const double ratio = notch / size;
   if (!(size > 0.0) || std::abs(ratio - std::round(ratio)) > 1e-9 || !method) {
-    std::cerr << "usage: fpz-fe-beam SIZE OUT.csv [" << fpz::all_words<fpz::Method>() << "]\n"
+    std::cerr << "usage: fpz-fe-beam SIZE OUT.csv [" << fpz::all_words<fpz::Method>() << " [own_planes]]\n"
               << "SIZE of the elements in m must divide the notch, " << notch << "\n";
     return 2;
   }
   options.method = *method;
-  Beam beam(size, options);
+  const bool own_planes = argc > 4 && std::string_view(argv[4]) == "own_planes";
+  Beam beam(size, options, own_planes);
   const auto rows = follow(beam);
   if (!rows) {
     std::cerr << "Newton's method does not come through at an opening of " << beam.opening() << " m\n";
@@ -412,11 +420,12 @@ int main(int argc, char** argv) {
   print_convergence(*rows);
   const auto peak =
       std::max_element(rows->begin(), rows->end(), [](const Row& a, const Row& b) { return a.load < b.load; });
+  const auto late = std::find_if(rows->begin(), rows->end(), [](const Row& r) { return r.opening >= 50e-6; });
   const auto [cracked, beside] = beam.cracked();
   std::printf(
-      "elements of %g mm: peak %.1f N at CMOD %.2f um; %zu steps, %d elements cracked, %d of them beside the "
-      "middle column\n",
-      1e3 * size, peak->load, 1e6 * peak->opening, rows->size() - 1, cracked, beside);
+      "elements of %g mm: peak %.1f N at CMOD %.2f um, %.1f N at %.2f um; %zu steps, %d elements cracked, %d of "
+      "them beside the middle column\n",
+      1e3 * size, peak->load, 1e6 * peak->opening, late->load, 1e6 * late->opening, rows->size() - 1, cracked, beside);
   if (write(argv[2], *rows)) return 0;
   std::cerr << "cannot write " << argv[2] << '\n';
   return 2;
