@@ -24,7 +24,7 @@ expected_programs() {
     if has "$1" SPH; then printf '%s\n' fpz-patch-report fpz-sph fpz-sph-report; fi
     if has "$1" INTERFACES; then echo fpz-fe-beam; fi
     if has "$1" BENCH; then printf '%s\n' fpz-bench fpz-speed-report; fi
-    if has "$1" BENCH && has "$1" SPH; then echo fpz-sph-bench; fi
+    if has "$1" BENCH && has "$1" SPH; then printf '%s\n' fpz-sph-bench fpz-sph-performance; fi
     if has "$1" BENCH && has "$1" INTERFACES; then echo fpz-interface-bench; fi
     if has "$1" BENCH && has "$1" CALIBRATION; then echo fpz-beam-bench; fi
     if has "$1" TESTS && has "$1" CALIBRATION; then echo fpz-verdict-study; fi

@@ -1,11 +1,14 @@
 // fpz-sph-bench: particle-steps per second of an elastic 2-D specimen (140 x 50 particles, cubic spline, h = 1.2 dx) on
 // one core and on all, for both configurations and every compiled version of the inner loops; the best of several
-// rounds. With --threads instead: 1, 2, ... threads on specimens of several sizes, round by round in turn; with
-// --threads busy beside a thread that keeps one processor busy. When LAMMPS (`lmp`) is on the PATH, the ratio to its
-// bond-based peridynamics on the same specimen.
+// rounds. When LAMMPS (`lmp`) is on the PATH, the ratio to its bond-based peridynamics on the same specimen.
+// --threads [busy]: 1, 2, ... threads on specimens of several sizes, round by round in turn; busy: beside a thread that
+// keeps one processor busy.
+// --ratio: the loops over a frozen simple one (simple_loop.hpp), round by round in turn; fails when one has lost a
+// third of what it once had.
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -19,41 +22,32 @@
 #include <sched.h>
 #endif
 
-#include "fpz/sph/simulation.hpp"
+#include "simple_loop.hpp"
+#include "sph_cases.hpp"
 
 namespace {
 
 using namespace fpz::sph;
+using fpz::bench::bar;
+using fpz::bench::Layout;
 
 constexpr int columns = 140;
 constexpr int rows = 50;
-constexpr double spacing = 1e-3;
+constexpr double spacing = 1e-3;  // of fpz::bench::bar
+
+bool has_avx2() {
+#if defined(__x86_64__)
+  return __builtin_cpu_supports("avx2") > 0;
+#else
+  return false;
+#endif
+}
 
 double seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
-/// A bar pulled slowly at one end, far below its strength; `scale` times as long and as high.
-RunSetup<2> bar(const Options<2>& options, int scale = 1) {
-  RunSetup<2> s;
-  s.options = options;
-  s.parameters = {45e9, 0.24, 2400.0, 2.9e6, 5e6, 37.0, 5.0, 16.4e-6, 1e14, 1e11, 2e-3};
-  s.arrangement.spacing = spacing;
-  fpz::Vec<double, 2> low, high;
-  low << 0.0, 0.0;
-  high << scale * columns * spacing, scale * rows * spacing;
-  add_lattice<2>(s.arrangement, low, high);
-  Group<2> left{"left", {Motion{0.0, 0.0}, Motion{0.0, 0.0}}, true};
-  Group<2> right{"right", {Motion{1e-3, 1e-4}, std::nullopt}, true};
-  s.groups = {left, right};
-  for (std::size_t i = 0; i < s.arrangement.size(); ++i) {
-    if (s.arrangement.position[i][0] < 3.0 * spacing) s.arrangement.group[i] = 0;
-    if (s.arrangement.position[i][0] > (scale * columns - 3) * spacing) s.arrangement.group[i] = 1;
-  }
-  return s;
-}
-
 /// Particle-steps per second, best round; 0 after a failure.
 double rate(const Options<2>& options, int rounds, int steps) {
-  Simulation<2> run(bar(options));
+  Simulation<2> run(bar(columns, rows, options));
   double best = 0.0;
   for (int r = 0; r < rounds; ++r) {
     const double begin = seconds();
@@ -103,14 +97,14 @@ bool thread_scaling(int rounds, long particle_steps, bool busy) {
   if (busy) neighbour = std::make_unique<Neighbour>();
   const int most = std::max(2, static_cast<int>(std::thread::hardware_concurrency()));
   std::printf("particles  threads  million particle-steps per second  over one thread\n");
-  for (const int scale : {1, 2, 4}) {  // the set-up of more takes minutes
+  for (const int scale : {1, 2, 4}) {
     const int count = columns * rows * scale * scale;
     const int steps = std::max(2, static_cast<int>(particle_steps / count));
     std::vector<std::unique_ptr<Simulation<2>>> runs;
     for (int n = 1; n <= most; ++n) {
       Options<2> o;
       o.threads = n;
-      runs.push_back(std::make_unique<Simulation<2>>(bar(o, scale)));
+      runs.push_back(std::make_unique<Simulation<2>>(bar(scale * columns, scale * rows, o)));
     }
     std::vector<double> best(runs.size(), 0.0), total(runs.size(), 0.0);
     for (int r = 0; r < rounds; ++r) {
@@ -134,6 +128,54 @@ bool thread_scaling(int rounds, long particle_steps, bool busy) {
     std::fflush(stdout);
   }
   return true;
+}
+
+/// A version of the loops and how many times as fast as the simple loop it was when it was written (g++ 12; Zen 4,
+/// 1.1 to 1.25 times that on Sapphire Rapids).
+struct Known {
+  Configuration configuration;
+  InstructionSet set;
+  Layout layout;
+  double ratio;
+};
+constexpr Known known[] = {
+    {Configuration::reference, InstructionSet::baseline, Layout::lattice, 0.69},
+    {Configuration::reference, InstructionSet::avx2, Layout::lattice, 1.32},
+    {Configuration::reference, InstructionSet::avx2, Layout::scattered, 0.67},
+    {Configuration::updated, InstructionSet::avx2, Layout::lattice, 0.46},
+};
+
+/// Median of the ratios of rounds that follow each other, so that a loaded machine slows both alike. False when a
+/// version has lost a third.
+bool keeps_its_ratios() {
+  constexpr int rounds = 41, steps = 12;
+  fpz::bench::SimpleLoop simple(columns, rows);
+  bool good = true;
+  std::printf("loops over the simple one: now, once\n");
+  for (const Known& k : known) {
+    if (k.set != InstructionSet::baseline && !has_avx2()) continue;
+    Options<2> o;
+    o.configuration = k.configuration;
+    o.instruction_set = k.set;
+    o.threads = 1;
+    Simulation<2> run(bar(columns, rows, o, k.layout));
+    std::vector<double> ratios;
+    for (int r = 0; r < rounds; ++r) {
+      const double begin = seconds();
+      for (int q = 0; q < steps; ++q) simple.step();
+      const double middle = seconds();
+      for (int q = 0; q < steps; ++q) good = run.step().ok() && good;
+      ratios.push_back((middle - begin) / (seconds() - middle));
+    }
+    std::nth_element(ratios.begin(), ratios.begin() + rounds / 2, ratios.end());
+    const double now = ratios[rounds / 2];
+    const bool lost = now < 2.0 / 3.0 * k.ratio;
+    good = good && !lost;
+    std::printf("%-10s %-9s %-10s %5.2f %5.2f%s\n", fpz::to_string(k.configuration), fpz::to_string(k.set),
+                name_of(k.layout), now, k.ratio, lost ? "  LOST A THIRD" : "");
+  }
+  if (!std::isfinite(simple.sum())) std::puts("the simple loop diverged");
+  return good && std::isfinite(simple.sum());
 }
 
 /// Bond-based peridynamics of LAMMPS on the same lattice (thickness one spacing, horizon 2.4 spacings): particle-steps
@@ -180,6 +222,7 @@ int main(int argc, char** argv) {
     const bool busy = argc > 2 && std::string(argv[2]) == "busy";
     return thread_scaling(10, busy ? 1'500'000 : 500'000, busy) ? 0 : 1;
   }
+  if (argc > 1 && std::string(argv[1]) == "--ratio") return keeps_its_ratios() ? 0 : 1;
   const int rounds = quick ? 1 : 12;
   const int steps = quick ? 10 : 200;
   std::printf("million particle-steps per second, %d particles\n%-12s %-9s %-8s %8s\n", columns * rows, "", "momentum",

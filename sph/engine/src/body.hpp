@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bonds.hpp"
+#include "chunks.hpp"
 #include "plane.hpp"
 #include "run_data.hpp"
 
@@ -87,13 +88,20 @@ class Body {
   std::vector<ReleasedBond<Dim>> fresh_;
 
  private:
-  /// Library update of the flagged particles of [first, last) blocks. Returns the first failure.
-  [[nodiscard]] Outcome update_flagged(Index first, Index last);
+  struct Report {
+    Outcome outcome;           ///< the first failure
+    bool has_cracked = false;  ///< a particle that had not
+  };
+
+  /// Library update of the flagged particles of [first, last) blocks.
+  [[nodiscard]] Report update_flagged(Index first, Index last);
   [[nodiscard]] Outcome update_particle(std::size_t i);
   /// H of a particle that has just cracked on a plane with this normal: by the band rule, where that is asked for.
   void set_band_length(std::size_t i, const Vec<double, Dim>& normal);
   /// H of a particle whose crack has the given unit normal, m: band_width() of its neighbours, those that it still has.
   [[nodiscard]] double band_length(std::size_t i, const Vec<double, Dim>& normal) const;
+
+  std::vector<Report> reports_;  ///< of the chunks
 };
 
 /// The body of the options' configuration.
@@ -103,14 +111,17 @@ template <int Dim>
 template <int Dim>
 template <class F>
 Outcome Body<Dim>::strain_with(F&& loops) {
-  std::vector<Outcome> failures(run_.particles.blocks() / static_cast<std::size_t>(chunk_blocks) + 1);
+  reports_.resize(run_.particles.blocks() / static_cast<std::size_t>(chunk_blocks) + 1);
   run_.for_chunks([&](Index first, Index last) {
     loops(first, last);
-    failures[static_cast<std::size_t>(first / chunk_blocks)] = update_flagged(first, last);
+    reports_[static_cast<std::size_t>(first / chunk_blocks)] = update_flagged(first, last);
   });
-  for (const Outcome& f : failures) {
-    if (!f.ok()) return f;
+  bool more = false;
+  for (const Report& r : reports_) {
+    if (!r.outcome.ok()) return r.outcome;
+    more = more || r.has_cracked;
   }
+  if (more) run_.find_cracked();
   return {};
 }
 

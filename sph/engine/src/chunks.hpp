@@ -18,4 +18,14 @@ void RunData<Dim>::for_chunks(F&& f) const {
   });
 }
 
+template <int Dim>
+template <class F>
+void RunData<Dim>::for_cracked(F&& f) const {
+  constexpr std::size_t at_once = 16;
+  team.run(static_cast<std::int64_t>((cracked.size() + at_once - 1) / at_once), [&](std::int64_t k) {
+    const std::size_t first = static_cast<std::size_t>(k) * at_once;
+    for (std::size_t c = first; c < std::min(first + at_once, cracked.size()); ++c) f(cracked[c]);
+  });
+}
+
 }  // namespace fpz::sph::detail

@@ -52,13 +52,10 @@ struct CrackBands<Dim>::Plane {
 };
 
 template <int Dim>
-void CrackBands<Dim>::find_opened(Index first, Index last) {
+void CrackBands<Dim>::find_opened(std::size_t i) {
   const Particles<Dim>& p = run_.particles;
-  for (std::size_t i = lanes_begin(first); i < std::min(lanes_begin(last), p.count); ++i) {
-    if (p.kind[i] != kind::cracked) continue;
-    const Tensor<double, Dim> elastic = elastic_strain<Dim>(run_.materials.bulk(i), p.point[i].stress);
-    for (std::size_t c = 0; c < run_.components; ++c) opened_[c][i] = p.strain[c][i] - elastic[static_cast<int>(c)];
-  }
+  const Tensor<double, Dim> elastic = elastic_strain<Dim>(run_.materials.bulk(i), p.point[i].stress);
+  for (std::size_t c = 0; c < run_.components; ++c) opened_[c][i] = p.strain[c][i] - elastic[static_cast<int>(c)];
 }
 
 template <int Dim>
@@ -144,20 +141,9 @@ void CrackBands<Dim>::forget(std::size_t i, const Tensor<double, Dim>& change) {
 }
 
 template <int Dim>
-void CrackBands<Dim>::follow(Index first, Index last) {
-  const Particles<Dim>& p = run_.particles;
-  for (std::size_t i = lanes_begin(first); i < std::min(lanes_begin(last), p.count); ++i) {
-    if (p.kind[i] != kind::cracked) continue;
-    if (at_first_[i] == 0.0) begin(i);
-    change_length(i, length_of(i));
-  }
-}
-
-template <int Dim>
 void CrackBands<Dim>::follow() {
   const Particles<Dim>& p = run_.particles;
-  const auto end = p.kind.begin() + static_cast<std::ptrdiff_t>(p.count);
-  if (std::find(p.kind.begin(), end, kind::cracked) == end) return;
+  if (run_.cracked.empty()) return;
   if (lists_.empty()) {
     const auto volumes = p.volume.begin() + static_cast<std::ptrdiff_t>(p.count);
     const double largest = std::sqrt(*std::max_element(p.volume.begin(), volumes));
@@ -165,8 +151,13 @@ void CrackBands<Dim>::follow() {
     separate<Dim>(lists_, run_.setup.arrangement.cuts, p.start);
     run_.keep_apart(lists_);
   }
-  run_.for_chunks([this](Index first, Index last) { find_opened(first, last); });
-  run_.for_chunks([this](Index first, Index last) { follow(first, last); });
+  run_.for_cracked([this](std::size_t i) { find_opened(i); });
+  run_.for_cracked([this](std::size_t i) {
+    if (at_first_[i] == 0.0) begin(i);
+    wanted_[i] = length_of(i);
+  });
+  // One after the other: the energy that a change takes is booked by blocks.
+  for (const std::size_t i : run_.cracked) change_length(i, wanted_[i]);
 }
 
 template <int Dim>

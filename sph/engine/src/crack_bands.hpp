@@ -32,6 +32,7 @@ class CrackBands {
     const std::size_t count = run.particles.count;
     for (Field& c : shift_) c.assign(count, 0.0);
     for (Field& c : opened_) c.assign(count, 0.0);
+    wanted_.assign(count, 0.0);
     at_first_.assign(count, 0.0);
     longest_.assign(count, 0.0);
   }
@@ -56,8 +57,7 @@ class CrackBands {
  private:
   struct Plane;  ///< the crack of a particle and how it opens
 
-  void find_opened(Index first, Index last);
-  void follow(Index first, Index last);
+  void find_opened(std::size_t i);
   /// opened_ of particle j along the jump of a crack with this plane.
   [[nodiscard]] double strain_along(const Plane& plane, std::size_t j) const;
   /// Width of the window times the mean opening strain in it, m.
@@ -72,6 +72,7 @@ class CrackBands {
   Field at_first_;                   ///< saved: the H of the arrangement, m, of cracked particles
   Field longest_;                    ///< saved: m, of cracked particles
   Fields<tensor_size<Dim>> opened_;  ///< strain less elastic strain, zero where there is no crack
+  Field wanted_;                     ///< H of cracked particles that their openings want now, m
 };
 
 }  // namespace fpz::sph::detail

@@ -28,8 +28,8 @@ template <int Dim>
 void CrackRows<Dim>::narrow() {
   const Particles<Dim>& p = run_.particles;
   std::vector<std::size_t> changed;
-  for (std::size_t i = 0; i < p.count; ++i) {
-    if (p.kind[i] != kind::cracked || damage(p.point[i].crack) < narrow_from || !rows_.narrow(i)) continue;
+  for (const std::size_t i : run_.cracked) {
+    if (damage(p.point[i].crack) < narrow_from || !rows_.narrow(i)) continue;
     changed.push_back(i);
     for (const int j : rows_.neighbours(i)) changed.push_back(static_cast<std::size_t>(j));
   }
@@ -83,7 +83,6 @@ double CrackRows<Dim>::lean_of(std::size_t i, const Full& correction) const {
 template <int Dim>
 bool CrackRows<Dim>::straighten(std::size_t i) {
   const Particles<Dim>& p = run_.particles;
-  if (p.kind[i] != kind::cracked) return false;
   const double integrity = p.point[i].crack.integrity;
   // Only while the crack grows: a row that followed the vibrations of a crack would feed them.
   if (integrity < CrackBands<Dim>::least_integrity || integrity > grown * straightened_[i]) return false;
@@ -138,8 +137,8 @@ template <int Dim>
 void CrackRows<Dim>::release(std::vector<ReleasedBond<Dim>>& cut) {
   const Particles<Dim>& p = run_.particles;
   std::vector<std::size_t> changed;
-  for (std::size_t i = 0; i < p.count; ++i) {
-    if (p.kind[i] != kind::cracked || p.point[i].crack.integrity >= run_.setup.options.release_integrity) continue;
+  for (const std::size_t i : run_.cracked) {
+    if (p.point[i].crack.integrity >= run_.setup.options.release_integrity) continue;
     for (const int j : released_by(i)) {
       cut.push_back(face_of_bond(i, static_cast<std::size_t>(j)));
       rows_.cut(i, j);

@@ -1,4 +1,5 @@
 // The particles that the lane loops cannot finish: cracked ones and candidates for onset go through fpz::update.
+#include <algorithm>
 #include <cmath>
 
 #include "body.hpp"
@@ -31,13 +32,20 @@ void Body<Dim>::set_band_length(std::size_t i, const Vec<double, Dim>& normal) {
 }
 
 template <int Dim>
-Outcome Body<Dim>::update_flagged(Index first, Index last) {
-  for (std::size_t i = lanes_begin(first); i < std::min(lanes_begin(last), run_.particles.count); ++i) {
-    if (run_.flagged[i] == 0) continue;
-    const Outcome outcome = update_particle(i);
-    if (!outcome.ok()) return outcome;
+typename Body<Dim>::Report Body<Dim>::update_flagged(Index first, Index last) {
+  Report report;
+  const Mask& flagged = run_.flagged;
+  for (std::size_t o = lanes_begin(first); o < lanes_begin(last); o += lanes) {
+    if (std::find(&flagged[o], &flagged[o] + lanes, 1) == &flagged[o] + lanes) continue;
+    for (std::size_t i = o; i < std::min(o + lanes, run_.particles.count); ++i) {
+      if (flagged[i] == 0) continue;
+      const bool was = run_.particles.kind[i] == kind::cracked;
+      report.outcome = update_particle(i);
+      if (!report.outcome.ok()) return report;
+      report.has_cracked = report.has_cracked || (!was && run_.particles.kind[i] == kind::cracked);
+    }
   }
-  return {};
+  return report;
 }
 
 template <int Dim>
@@ -74,7 +82,7 @@ Outcome Body<Dim>::update_particle(std::size_t i) {
   const State<double, Dim> begin = state_at_begin(i, m);
   State<double, Dim> point = begin;
   const Tensor<double, Dim> increment = strain_increment(i, begin);
-  Report report;
+  fpz::Report report;
   if (const auto opened = opened_weak_plane<Dim>(run_.materials, i, begin, increment)) {
     run_.materials.crack_on_weak_plane(i);
     set_band_length(i, opened->state.frame.row(0).transpose());
@@ -108,7 +116,7 @@ Outcome Body<Dim>::update_particle(std::size_t i) {
 
 template double Body<2>::band_length(std::size_t, const Vec<double, 2>&) const;
 template void Body<2>::set_band_length(std::size_t, const Vec<double, 2>&);
-template Outcome Body<2>::update_flagged(Index, Index);
+template Body<2>::Report Body<2>::update_flagged(Index, Index);
 template Outcome Body<2>::update_particle(std::size_t);
 
 }  // namespace fpz::sph::detail

@@ -47,7 +47,9 @@ struct NumbersOf {
   using Type = Pair<typename Half::Type>;
   static constexpr int half = numbers / 2;
   FPZ_INLINED static Type load(const double* a) { return {Half::load(a), Half::load(a + half)}; }
-  FPZ_INLINED static Type gather(const double* a, const int* j) { return {Half::gather(a, j), Half::gather(a, j + half)}; }
+  FPZ_INLINED static Type gather(const double* a, const int* j) {
+    return {Half::gather(a, j), Half::gather(a, j + half)};
+  }
   FPZ_INLINED static void store(const Type& x, double* a) {
     Half::store(x.low, a);
     Half::store(x.high, a + half);

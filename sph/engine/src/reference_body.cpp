@@ -46,7 +46,7 @@ Outcome ReferenceBody<Dim>::advance() {
   const bool follows = bands_ && o.momentum == MomentumForm::adjoint;
   if (bands_ && run.steps % band_interval == 0) bands_->follow();
   if (follows && run.steps % band_interval == 0) {
-    run.for_chunks([this](Index first, Index last) { straighten(first, last); });
+    run.for_cracked([this](std::size_t i) { straighten(i); });
   }
   if (o.release_integrity > 0.0 && run.steps % release_interval == 0) {
     if (follows) crack_rows_.narrow();
@@ -96,11 +96,9 @@ void ReferenceBody<Dim>::push() {
 }
 
 template <int Dim>
-void ReferenceBody<Dim>::straighten(Index first, Index last) {
+void ReferenceBody<Dim>::straighten(std::size_t i) {
   const Particles<Dim>& p = this->run_.particles;
-  for (std::size_t i = lanes_begin(first); i < std::min(lanes_begin(last), p.count); ++i) {
-    if (crack_rows_.straighten(i)) set_flux(i, {p.stress[0][i], p.stress[1][i], p.stress[2][i]});
-  }
+  if (crack_rows_.straighten(i)) set_flux(i, {p.stress[0][i], p.stress[1][i], p.stress[2][i]});
 }
 
 template <int Dim>

@@ -36,7 +36,7 @@ class ReferenceBody final : public Body<Dim> {
  private:
   /// Fills the lists and bonds of the base.
   BondRows<Dim> make_rows();
-  void straighten(Index first, Index last);
+  void straighten(std::size_t i);
   template <class Archive, class Self>
   static void transfer(Archive& archive, Self& self) {
     Self::transfer_lists(archive, self);

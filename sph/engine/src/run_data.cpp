@@ -136,6 +136,14 @@ void RunData<Dim>::set_constants() {
   v.artificial_stress = o.artificial_stress;
 }
 
+template <int Dim>
+void RunData<Dim>::find_cracked() {
+  cracked.clear();
+  for (std::size_t i = 0; i < particles.count; ++i) {
+    if (particles.kind[i] == kind::cracked) cracked.push_back(i);
+  }
+}
+
 template struct RunData<2>;
 
 }  // namespace fpz::sph::detail

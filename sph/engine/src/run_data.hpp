@@ -35,12 +35,13 @@ struct RunData {
 
   Particles<Dim> particles;
   std::vector<std::size_t> slot_of;
-  std::vector<int> piece;   ///< per particle: 0 of the body and what is bonded to it; its group + 1 where that is loose
-  std::vector<int> group;   ///< per particle, -1 of the body
-  Fields<Dim> damping;      ///< 1 where local damping acts, 0 where the component is driven
-  Fields<Dim> outer_force;  ///< of boundaries that push and of closed faces at n, N
-  Mask flagged;             ///< of the last pass: the library must update the particle
-  Mask bad;                 ///< of the last pass, per block: a velocity is out of bounds
+  std::vector<int> piece;  ///< per particle: 0 of the body and what is bonded to it; its group + 1 where that is loose
+  std::vector<int> group;  ///< per particle, -1 of the body
+  std::vector<std::size_t> cracked;  ///< particles that are, ascending; see find_cracked()
+  Fields<Dim> damping;               ///< 1 where local damping acts, 0 where the component is driven
+  Fields<Dim> outer_force;           ///< of boundaries that push and of closed faces at n, N
+  Mask flagged;                      ///< of the last pass: the library must update the particle
+  Mask bad;                          ///< of the last pass, per block: a velocity is out of bounds
   WorkLedger<Dim> ledger;
 
   mutable Team team;
@@ -73,10 +74,16 @@ struct RunData {
     WorkLedger<Dim>::fields(self.ledger, visit);
   }
 
+  /// Makes the list `cracked` anew; whenever some have cracked.
+  void find_cracked();
+
   /// Runs f(first, last) over all blocks in chunks, on the team; the split never changes results. Defined in
   /// chunks.hpp.
   template <class F>
   void for_chunks(F&& f) const;
+  /// Runs f(i) over the cracked particles on the team.
+  template <class F>
+  void for_cracked(F&& f) const;
 
  private:
   void place_particles();

@@ -118,6 +118,7 @@ void Engine<Dim>::load(Reader& archive) {
   transfer_run(archive, run);
   run.materials.load(archive);
   RunData<Dim>::fields(run, Spoil{run.particles.count});
+  run.find_cracked();
   body->load(archive);
   for (const auto& boundary : boundaries) boundary->load(archive);
   if (control) control->load(archive);

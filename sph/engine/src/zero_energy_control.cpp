@@ -73,10 +73,9 @@ double ZeroEnergyControl<Dim>::share_of(std::size_t i) const {
 
 template <int Dim>
 std::vector<std::size_t> ZeroEnergyControl<Dim>::opened_further() const {
-  const Particles<Dim>& p = run_.particles;
   std::vector<std::size_t> list;
-  for (std::size_t i = 0; i < p.count; ++i) {
-    if (p.kind[i] == kind::cracked && share_[i] > 0.0 && share_of(i) < share_[i]) list.push_back(i);
+  for (const std::size_t i : run_.cracked) {
+    if (share_[i] > 0.0 && share_of(i) < share_[i]) list.push_back(i);
   }
   return list;
 }

@@ -1,4 +1,5 @@
-// The order of the particles and the forms in which their bonds are kept: alike bonds once, neighbours in a row at once.
+// The order of the particles and the forms in which their bonds are kept: alike bonds once, neighbours in a row at
+// once.
 #include <algorithm>
 #include <random>
 

@@ -1,0 +1,243 @@
+// fpz-sph-performance FILE.md [--long]: where the time of the particle method's steps goes, as a document. --long: one
+// million particles too. --quick: hardly measures, to see that it runs.
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+#include <functional>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "chunks.hpp"
+#include "engine.hpp"
+#include "machine_peaks.hpp"
+#include "sph_cases.hpp"
+
+namespace {
+
+using namespace fpz::sph;
+using fpz::bench::bar;
+using fpz::bench::Layout;
+
+double seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+struct Effort {
+  int rounds = 8;
+  double particle_steps = 2e6;  ///< of a round
+  bool is_long = false;
+};
+
+/// Least time of one call of f over several rounds, s; `count` particles.
+double least_time(const Effort& effort, std::size_t count, const std::function<void()>& f) {
+  const int calls = std::max(1, static_cast<int>(effort.particle_steps / static_cast<double>(count)));
+  double best = HUGE_VAL;
+  for (int r = 0; r < effort.rounds; ++r) {
+    const double begin = seconds();
+    for (int k = 0; k < calls; ++k) f();
+    best = std::min(best, (seconds() - begin) / calls);
+  }
+  return best;
+}
+
+void must(const Outcome& o) {
+  if (o.ok()) return;
+  std::fprintf(stderr, "fpz-sph-performance: %s\n", o.message().c_str());
+  std::exit(1);
+}
+
+std::string text(const char* format, double x) {
+  char line[64];
+  std::snprintf(line, sizeof line, format, x);
+  return line;
+}
+
+std::string processor() {
+  std::ifstream in("/proc/cpuinfo");
+  for (std::string line; std::getline(in, line);) {
+    if (line.rfind("model name", 0) == 0) return line.substr(line.find(':') + 2);
+  }
+  return "unknown processor";
+}
+
+int all_threads() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
+
+struct Size {
+  int columns, rows;
+};
+
+std::vector<Size> sizes(const Effort& effort) {
+  std::vector<Size> all = {{140, 50}};
+  if (effort.rounds > 1) all.push_back({560, 200});
+  if (effort.is_long) all.push_back({1680, 600});
+  return all;
+}
+
+Options<2> with_threads(int threads, InstructionSet set = InstructionSet::best) {
+  Options<2> o;
+  o.threads = threads;
+  o.instruction_set = set;
+  return o;
+}
+
+/// Arithmetic and traffic of a particle's step as the loops of passes.inl have them.
+struct Cost {
+  double bonds = 0.0, control_bonds = 0.0, shared = 0.0;  ///< of a particle; part of the blocks with a stencil
+  double flops = 0.0, bytes = 0.0;
+};
+
+Cost cost_of(const detail::Engine<2>& e) {
+  // Per bond in strain_reference and force_reference, with and without the zero-energy control; per particle the rest.
+  constexpr double strain = 10.0, force = 12.0, control = 10.0 + 23.0, rest = 150.0;
+  // Numbers of a particle that are read or written: once in each pass, what is both counts twice.
+  constexpr double fields = 69.0 * 8.0;
+  const detail::View<2>& v = e.run.view;
+  const auto blocks = static_cast<double>(e.run.particles.blocks());
+  const auto columns = [&](const detail::BondView<2>& b) { return static_cast<double>(b.column[e.run.particles.blocks()]); };
+  const auto own_columns = [&](const detail::BondView<2>& b) {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < e.run.particles.blocks(); ++k) sum += b.shared[k] < 0 ? b.column[k + 1] - b.column[k] : 0;
+    return sum;
+  };
+  Cost c;
+  c.bonds = columns(v.bonds) / blocks;
+  c.control_bonds = columns(v.control_bonds) / blocks;
+  for (std::size_t k = 0; k < e.run.particles.blocks(); ++k) c.shared += v.bonds.shared[k] >= 0 ? 1.0 / blocks : 0.0;
+  c.flops = c.bonds * (strain + force) + c.control_bonds * control + rest;
+  // Both passes read the bonds: vectors, in the control the stiffness too, and the neighbours.
+  c.bytes = fields + 2.0 * (own_columns(v.bonds) * (16.0 + 4.0) + own_columns(v.control_bonds) * (24.0 + 4.0)) / blocks;
+  return c;
+}
+
+void write_machine(std::ostream& out, double flops) {
+  out << "Machine: " << processor() << ", " << all_threads() << " threads; g++ " << __VERSION__ << ". One thread:\n\n"
+      << "| what | peak |\n| --- | --- |\n"
+      << "| multiplications and additions, not fused | " << text("%.1f", flops * 1e-9) << " Gflop/s |\n";
+  for (const auto& [name, bytes] : {std::pair<const char*, std::size_t>{"256 KB", 256'000}, {"8 MB", 8'000'000},
+                                    {"256 MB", 256'000'000}}) {
+    out << "| a = b + s c over " << name << " | " << text("%.1f", fpz::bench::bandwidth(bytes) * 1e-9) << " GB/s |\n";
+  }
+}
+
+void write_rates(std::ostream& out, const Effort& effort) {
+  out << "\n## Million particle-steps per second\n\n"
+      << "| particles | arrangement | SSE2 | AVX2 | AVX-512 | all threads |\n| --- | --- | --- | --- | --- | --- |\n";
+  for (const Size& size : sizes(effort)) {
+    for (const Layout layout : {Layout::lattice, Layout::turned, Layout::scattered}) {
+      if (size.columns > 600 && layout != Layout::lattice) continue;
+      std::size_t count = 0;
+      const auto rate = [&](const Options<2>& o) {
+        Simulation<2> run(bar(size.columns, size.rows, o, layout));
+        count = run.particles().count;
+        return static_cast<double>(count) * 1e-6 / least_time(effort, count, [&] { must(run.step()); });
+      };
+      std::string row;
+      for (const InstructionSet set : {InstructionSet::baseline, InstructionSet::avx2, InstructionSet::avx512}) {
+        row += text("%.1f | ", rate(with_threads(1, set)));
+      }
+      row += text("%.1f |", rate(with_threads(all_threads())));
+      out << "| " << count << " | " << fpz::bench::name_of(layout) << " | " << row << "\n" << std::flush;
+    }
+  }
+}
+
+/// Times of one thread in ns per particle, on the whole step and on its two passes alone.
+void write_parts(std::ostream& out, const Effort& effort, double flops) {
+  out << "\n## Where the time goes\n\n"
+      << "One thread, widest registers; lattice and scattered, the passes timed alone. \"Rest\": library updates,\n"
+         "boundaries, checks. Flops and bytes as the loops state them; of the peak: arithmetic.\n\n"
+      << "| particles | arrangement | stencils | flops | bytes | step, ns | strain | force | rest | of the peak | GB/s |\n"
+      << "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n";
+  for (const Size& size : sizes(effort)) {
+    for (const Layout layout : {Layout::lattice, Layout::scattered}) {
+      if (size.columns > 600 && layout != Layout::lattice) continue;
+      const RunSetup<2> setup = bar(size.columns, size.rows, with_threads(1), layout);
+      detail::Engine<2> e(setup, time_step(setup));
+      const std::size_t count = e.run.particles.count;
+      const Cost cost = cost_of(e);
+      const auto per_particle = [&](double time) { return time * 1e9 / static_cast<double>(count); };
+      const double step = per_particle(least_time(effort, count, [&] { must(e.step()); }));
+      detail::View<2> still = e.run.view;
+      still.step = 0.0;
+      const auto pass = [&](auto f) {
+        return per_particle(least_time(effort, count, [&] {
+          e.run.for_chunks([&](detail::Index first, detail::Index last) { f(still, first, last); });
+        }));
+      };
+      const double strain = pass(e.run.passes->strain_reference), force = pass(e.run.passes->force_reference);
+      out << "| " << count << " | " << fpz::bench::name_of(layout) << " | " << text("%.0f %% | ", 100.0 * cost.shared)
+          << text("%.0f | ", cost.flops) << text("%.0f | ", cost.bytes) << text("%.1f | ", step)
+          << text("%.1f | ", strain) << text("%.1f | ", force) << text("%.1f | ", std::max(0.0, step - strain - force))
+          << text("%.0f %% | ", 100.0 * cost.flops / step * 1e9 / flops) << text("%.1f |\n", cost.bytes / step)
+          << std::flush;
+    }
+  }
+}
+
+void write_cracks(std::ostream& out, const Effort& effort) {
+  out << "\n## With cracks\n\n"
+      << "A lattice whose every twentieth column has cracked and yields on, against the same before it cracked.\n\n"
+      << "| particles | cracked | intact | with cracks | part | a cracked particle costs, ns |\n"
+      << "| --- | --- | --- | --- | --- | --- |\n";
+  for (const Size& size : sizes(effort)) {
+    if (size.columns > 600) continue;
+    Options<2> o = with_threads(1);
+    o.courant = 0.5;
+    Simulation<2> run(fpz::bench::bar_with_cracks(size.columns, size.rows, o));
+    const std::size_t count = run.particles().count;
+    Effort short_effort = effort;
+    short_effort.particle_steps = std::min(effort.particle_steps, 40.0 * static_cast<double>(count));
+    short_effort.rounds = 1;
+    const double intact = least_time(short_effort, count, [&] { must(run.step()); });
+    for (int k = 0; k < 20000 && run.cracked() < count / 25; ++k) must(run.step());
+    const double cracked = least_time(effort, count, [&] { must(run.step()); });
+    const auto found = static_cast<double>(run.cracked());
+    out << "| " << count << " | " << text("%.1f %% | ", 100.0 * found / static_cast<double>(count))
+        << text("%.1f | ", static_cast<double>(count) * 1e-6 / intact)
+        << text("%.1f | ", static_cast<double>(count) * 1e-6 / cracked) << text("%.0f %% | ", 100.0 * intact / cracked)
+        << text("%.0f |\n", (cracked - intact) * 1e9 / std::max(1.0, found)) << std::flush;
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Effort effort;
+  std::string file;
+  for (int k = 1; k < argc; ++k) {
+    const std::string word = argv[k];
+    if (word == "--long") {
+      effort.is_long = true;
+    } else if (word == "--quick") {
+      effort.rounds = 1;
+      effort.particle_steps = 14'000.0;
+    } else if (file.empty() && word[0] != '-') {
+      file = word;
+    } else {
+      file.clear();
+      break;
+    }
+  }
+  if (file.empty()) {
+    std::fputs("usage: fpz-sph-performance FILE.md [--long] [--quick]\n", stderr);
+    return 2;
+  }
+  std::ostringstream out;
+  out << "# Speed of the particle method\n\nWritten by `build/release/bin/fpz-sph-performance docs/performance.md"
+      << (effort.is_long ? " --long" : "") << "`. The bar of `fpz-sph-bench`:\n`reference`, consistent gradients, h = 1.2 "
+      << "spacings, zero-energy control on, elastic unless it says otherwise.\n\n";
+  const double flops = fpz::bench::arithmetic();
+  write_machine(out, flops);
+  write_rates(out, effort);
+  write_parts(out, effort, flops);
+  write_cracks(out, effort);
+  std::ofstream to(file);
+  to << out.str();
+  if (!to.flush()) {
+    std::fprintf(stderr, "fpz-sph-performance: %s cannot be written\n", file.c_str());
+    return 1;
+  }
+  return 0;
+}
