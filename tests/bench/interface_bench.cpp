@@ -31,6 +31,10 @@
 extern "C" int Fpz_PlaneStrain(fpz::generic::BehaviourData*);
 #endif
 
+#ifdef FPZ_BENCH_PYTHON
+#include "python_jobs.hpp"
+#endif
+
 namespace {
 
 using namespace fpz;
@@ -270,6 +274,30 @@ Job c_batch_in_place(const Setup& s, const Ring& ring) {
   };
 }
 
+#ifdef FPZ_BENCH_PYTHON
+/// A point there and back.
+Job direct_walk(const Setup& s, const Ring& ring) {
+  return [&s, &ring](int calls) {
+    State2 state = ring.begin[0];
+    const Tensor<double, 2> back = -ring.increment;
+    for (int k = 0; k < calls; ++k) {
+      check(update<2>(s.material, s.options, state, k % 2 == 0 ? ring.increment : back, state).ok(), "C++");
+    }
+  };
+}
+
+void add_python_rows(std::vector<Row>& rows, const Setup& s, const Ring& ring) {
+  const bench::PythonModule module(FPZ_BENCH_PYTHON, s.parameters);
+  const std::string at = ", " + ring.name;
+  const int n = int(batch_points);
+  const std::vector<State2> states = repeated(ring.begin);
+  const auto batch = [&](bool tangents) { return module.batch(states, ring.increment, tangents); };
+  rows.push_back({"Python, Point.update()" + at, 1, direct_walk(s, ring), module.walk(ring.begin[0], ring.increment)});
+  rows.push_back({"Python batch" + at, n, direct_batch(s, ring, false), batch(false)});
+  rows.push_back({"Python batch with tangents" + at, n, direct_batch(s, ring, true), batch(true)});
+}
+#endif
+
 std::vector<Row> rows_for(const Setup& s, const Ring& ring) {
   const std::string at = ", " + ring.name;
   const int n = int(batch_points);
@@ -286,6 +314,9 @@ std::vector<Row> rows_for(const Setup& s, const Ring& ring) {
     rows.push_back({"C batch, in place" + at, n, direct_batch_in_place(s, ring), c_batch_in_place(s, ring)});
   }
   rows.push_back({"C batch with tangents" + at, n, direct_batch(s, ring, true), c_batch(s, ring, true, true)});
+#ifdef FPZ_BENCH_PYTHON
+  add_python_rows(rows, s, ring);
+#endif
   return rows;
 }
 
