@@ -1,5 +1,5 @@
-// The particle method's elastic step as one would write it first: neighbour lists, one particle after the other. FROZEN:
-// a yardstick for the engine's loops on whatever machine, so it must not be made faster.
+// The particle method's elastic step as one would write it first: neighbour lists, one particle after the other.
+// FROZEN: a yardstick for the engine's loops on whatever machine, so it must not be made faster.
 #pragma once
 
 #include <cstddef>
