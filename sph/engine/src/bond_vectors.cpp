@@ -339,8 +339,10 @@ NormalEquations normal_equations(const RunData<2>& run, const NeighbourLists& li
 template <int Dim>
 BondVectors<Dim> make_bond_vectors(const RunData<Dim>& run, const NeighbourLists& lists) {
   constexpr double solved = 1e-10;
-  VectorProblem local(run, lists, Change::where_needed);
-  if (local.is_partly_right() && local.solve() < solved) return local.vectors();
+  {
+    VectorProblem problem(run, lists, Change::where_needed);
+    if (problem.is_partly_right() && problem.solve() < solved) return problem.vectors();
+  }
   VectorProblem problem(run, lists, Change::anywhere);
   if (problem.solve() == HUGE_VAL) {
     throw std::runtime_error(

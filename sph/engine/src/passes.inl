@@ -14,6 +14,8 @@ namespace FPZ_SPH_ISA {
 namespace {
 
 constexpr auto n = static_cast<int>(lanes);
+/// Passes take a copy of it: as stores to the arrays cannot change that, its numbers stay in registers and the compiler
+/// makes vectors of the loops over lanes.
 using V = View<2>;
 
 /// Sum over lanes in their order.
