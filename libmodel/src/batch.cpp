@@ -2,25 +2,9 @@
 
 #include <stdexcept>
 
-#ifdef _OPENMP
-#include <omp.h>
-#endif
+#include "fpz/threads.hpp"
 
 namespace fpz {
-
-namespace {
-
-constexpr std::ptrdiff_t chunk = 256;
-
-int max_threads() {
-#ifdef _OPENMP
-  return omp_get_max_threads();
-#else
-  return 1;
-#endif
-}
-
-}  // namespace
 
 template <int Dim>
 BatchReport update_batch(const Material<double>& m, const Options& o, std::span<const State<double, Dim>> begin,
@@ -32,12 +16,11 @@ BatchReport update_batch(const Material<double>& m, const Options& o, std::span<
   }
   BatchReport total;
   const auto points = static_cast<std::ptrdiff_t>(size);
-  const int team = threads > 0 ? threads : max_threads();
-  // Cracked points cost twenty times an elastic one and come in clusters: small dynamic chunks share them out.
-#pragma omp parallel num_threads(team) if (team > 1 && points > chunk)
+  [[maybe_unused]] const int team = thread_count(threads);
+#pragma omp parallel num_threads(team) if (team > 1 && points > points_at_once)
   {
     BatchReport part;
-#pragma omp for schedule(dynamic, chunk) nowait
+#pragma omp for schedule(dynamic, points_at_once) nowait
     for (std::ptrdiff_t i = 0; i < points; ++i) {
       const auto k = static_cast<std::size_t>(i);
       const Report point = tangents.empty()

@@ -1,14 +1,13 @@
 #include "machine_peaks.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <vector>
+
+#include "stopwatch.hpp"
 
 namespace fpz::bench {
 
 namespace {
-
-double seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 volatile double sink = 0.0;
 

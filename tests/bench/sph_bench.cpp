@@ -7,7 +7,6 @@
 // third of what it once had.
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -24,12 +23,14 @@
 
 #include "simple_loop.hpp"
 #include "sph_cases.hpp"
+#include "stopwatch.hpp"
 
 namespace {
 
 using namespace fpz::sph;
 using fpz::bench::bar;
 using fpz::bench::Layout;
+using fpz::bench::seconds;
 
 constexpr int columns = 140;
 constexpr int rows = 50;
@@ -42,8 +43,6 @@ bool has_avx2() {
   return false;
 #endif
 }
-
-double seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 /// Particle-steps per second, best round; 0 after a failure.
 double rate(const Options<2>& options, int rounds, int steps) {

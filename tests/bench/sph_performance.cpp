@@ -1,7 +1,6 @@
 // fpz-sph-performance FILE.md [--long]: where the time of the particle method's steps goes, as a document. --long: one
 // million particles too. --quick: hardly measures, to see that it runs.
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <fstream>
 #include <functional>
@@ -15,14 +14,14 @@
 #include "engine.hpp"
 #include "machine_peaks.hpp"
 #include "sph_cases.hpp"
+#include "stopwatch.hpp"
 
 namespace {
 
 using namespace fpz::sph;
 using fpz::bench::bar;
 using fpz::bench::Layout;
-
-double seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+using fpz::bench::seconds;
 
 struct Effort {
   int rounds = 8;

@@ -3,11 +3,8 @@
 
 #include <cmath>
 
+#include "fpz/threads.hpp"
 #include "particle_order.hpp"
-
-#ifdef _OPENMP
-#include <omp.h>
-#endif
 
 namespace fpz::sph::detail {
 
@@ -32,18 +29,9 @@ const Passes<Dim>* choose_passes(const Options<Dim>& o, bool several) {
 
 }  // namespace
 
-int team_size(int requested) {
-  if (requested > 0) return requested;
-#ifdef _OPENMP
-  return omp_get_max_threads();
-#else
-  return 1;
-#endif
-}
-
 template <int Dim>
 RunData<Dim>::RunData(const RunSetup<Dim>& s, double time_step)
-    : setup(s), dt(time_step), team(team_size(s.options.threads)) {
+    : setup(s), dt(time_step), team(thread_count(s.options.threads)) {
   const Options<Dim>& o = setup.options;
   update_options.method = o.method;
   h = o.smoothing_ratio * setup.arrangement.spacing;

@@ -10,9 +10,6 @@
 
 namespace fpz::sph::detail {
 
-/// Number of threads asked for.
-[[nodiscard]] int team_size(int requested);
-
 inline constexpr Index chunk_blocks = 16;
 
 /// First particle of a block.

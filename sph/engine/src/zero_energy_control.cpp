@@ -71,24 +71,18 @@ double ZeroEnergyControl<Dim>::share_of(std::size_t i) const {
   return std::max(0.0, 1.0 - damage(p.point[i].crack) * m.delta0 / most);
 }
 
-template <int Dim>
-std::vector<std::size_t> ZeroEnergyControl<Dim>::opened_further() const {
-  std::vector<std::size_t> list;
-  for (const std::size_t i : run_.cracked) {
-    if (share_[i] > 0.0 && share_of(i) < share_[i]) list.push_back(i);
-  }
-  return list;
-}
-
 /// A force that is gone at the end of the step has done the work of its beginning for half of the way: so the energy of
 /// the middle is what is lost.
 template <int Dim>
 void ZeroEnergyControl<Dim>::let_go(double step) {
   double& lost = run_.ledger.zero_energy;
-  for (const std::size_t i : opened_further()) {
-    const double left = share_of(i) / share_[i];
+  for (const std::size_t i : run_.cracked) {
+    if (share_[i] == 0.0) continue;
+    const double share = share_of(i);
+    if (share >= share_[i]) continue;
+    const double left = share / share_[i];
     lost += (1.0 - left) * stored_at(i, 0.5 * step);
-    share_[i] = share_of(i);
+    share_[i] = share;
     for (Field& g : gradient_) g[i] *= left;
   }
 }

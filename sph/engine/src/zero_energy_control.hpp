@@ -49,8 +49,6 @@ class ZeroEnergyControl {
   void write_row(std::size_t i, AlikeBonds& alike);
   /// Part of its energy that is left to the cracked particle i with its damage and H.
   [[nodiscard]] double share_of(std::size_t i) const;
-  /// Particles with more left than their share.
-  [[nodiscard]] std::vector<std::size_t> opened_further() const;
   /// Energy of a particle, J, `before` (s) the end of the step.
   [[nodiscard]] double stored_at(std::size_t i, double before) const;
 

@@ -4,28 +4,15 @@
 #include <exception>
 #include <string>
 
-#ifdef _OPENMP
-#include <omp.h>
-#endif
-
 #include "explain.hpp"
 #include "fpz/energy.hpp"
 #include "fpz/point/point_update.hpp"
+#include "fpz/threads.hpp"
 #include "fpz/update.hpp"
 
 namespace fpz::point {
 
 namespace {
-
-constexpr std::ptrdiff_t chunk = 256;
-
-int max_threads() {
-#ifdef _OPENMP
-  return omp_get_max_threads();
-#else
-  return 1;
-#endif
-}
 
 /// The points of one thread: what is kept from one to the next.
 template <int Dim>
@@ -178,11 +165,11 @@ template <int Dim>
 BatchReport update_batch(const Behaviour& behaviour, const BatchArrays& arrays, int threads) noexcept {
   BatchReport total;
   const auto points = static_cast<std::ptrdiff_t>(arrays.points);
-  [[maybe_unused]] const int team = threads > 0 ? threads : max_threads();
-#pragma omp parallel num_threads(team) if (team > 1 && points > chunk)
+  [[maybe_unused]] const int team = thread_count(threads);
+#pragma omp parallel num_threads(team) if (team > 1 && points > points_at_once)
   {
     Worker<Dim> worker(behaviour, arrays);
-#pragma omp for schedule(dynamic, chunk) nowait
+#pragma omp for schedule(dynamic, points_at_once) nowait
     for (std::ptrdiff_t i = 0; i < points; ++i) worker.update_point(static_cast<std::size_t>(i));
 #pragma omp critical(fpz_point_update_batch)
     total.add(worker.report);

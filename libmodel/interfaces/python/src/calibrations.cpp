@@ -17,11 +17,7 @@ namespace cal = fpz::calibration;
 
 cal::Specification read(const std::optional<std::string>& text, const std::string& file) {
   if (!text) return cal::read_specification(file);
-  try {
-    return cal::parse_specification(*text, file);
-  } catch (const io::InputError& e) {
-    throw io::InputError(without_line(e.what(), file));
-  }
+  return saying_no_line(file, [&] { return cal::parse_specification(*text, file); });
 }
 
 /// The points of a data set with what the fitted material predicts there.

@@ -1,6 +1,5 @@
 #include "errors.hpp"
 
-#include "fpz/io/input_error.hpp"
 #include "fpz/io/output.hpp"
 
 namespace fpz::python {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "fpz/io/input_error.hpp"
 #include "fpz/types.hpp"
 
 namespace fpz::python {
@@ -25,5 +26,15 @@ void warn(const std::vector<std::string>& lines);
 
 /// Input that is a Python object is one line of JSON text: "origin:1: " says nothing then, and is shortened.
 [[nodiscard]] std::string without_line(std::string text, const std::string& origin);
+
+/// Calls f, which reads such input; what it finds wrong is said without the line.
+template <class F>
+auto saying_no_line(const std::string& origin, F&& f) {
+  try {
+    return f();
+  } catch (const io::InputError& e) {
+    throw io::InputError(without_line(e.what(), origin));
+  }
+}
 
 }  // namespace fpz::python

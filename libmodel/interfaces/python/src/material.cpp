@@ -44,7 +44,7 @@ io::MaterialFile read_tree(const py::dict& tree, double rve_length, Setting sett
   io::Problems problems(limits.problems);
   io::JsonValue root;
   std::optional<io::MaterialFile> material;
-  try {
+  saying_no_line(origin, [&] {
     if (io::parse_json(text, origin, limits, problems, root)) {
       const io::InputReader reader(origin, limits, problems);
       material = io::material_at(reader, io::Place(root), [&reader](const io::Place& name) {
@@ -57,9 +57,7 @@ io::MaterialFile read_tree(const py::dict& tree, double rve_length, Setting sett
       warnings = io::check_material(*material, material->parameters, setting, of_length, problems);
     }
     problems.throw_if_any();
-  } catch (const io::InputError& e) {
-    throw io::InputError(without_line(e.what(), origin));
-  }
+  });
   for (std::string& w : warnings) w = without_line(w, origin);
   return *material;
 }

@@ -36,11 +36,7 @@ py::dict result_of(const driver::Test& test, const driver::Result& result) {
 
 driver::PathFile read(const std::optional<std::string>& text, const std::string& file) {
   if (!text) return driver::read_path_file(file);
-  try {
-    return driver::parse_path_file(*text, file);
-  } catch (const io::InputError& e) {
-    throw io::InputError(without_line(e.what(), file));
-  }
+  return saying_no_line(file, [&] { return driver::parse_path_file(*text, file); });
 }
 
 py::list run_tests(const std::optional<std::string>& text, const std::string& file, const py::object& progress) {

@@ -53,11 +53,7 @@ class InterruptFlag {
 
 sp::Scene read(const std::optional<std::string>& text, const std::string& file, const sp::Overrides& overrides) {
   if (!text) return sp::read_scene(file, overrides);
-  try {
-    return sp::parse_scene(*text, file, overrides);
-  } catch (const io::InputError& e) {
-    throw io::InputError(without_line(e.what(), file));
-  }
+  return saying_no_line(file, [&] { return sp::parse_scene(*text, file, overrides); });
 }
 
 py::dict info_of(const sp::Progress& p) {
