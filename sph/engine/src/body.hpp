@@ -74,8 +74,8 @@ class Body {
     archive(self.released_);
   }
 
-  /// What a particle begins the step with; a crack that takes another plane (Options::reorientation_damage) is open on
-  /// it.
+  /// What a particle begins the step with: intact, or with the crack that takes another plane
+  /// (Options::reorientation_damage) open on it.
   [[nodiscard]] State<double, Dim> state_at_begin(std::size_t i, Material<double>& m);
   /// Whether a young crack leaves another plane to fail.
   [[nodiscard]] bool wants_another_plane(std::size_t i, const Material<double>& m) const;
@@ -96,6 +96,12 @@ class Body {
   /// Library update of the flagged particles of [first, last) blocks.
   [[nodiscard]] Report update_flagged(Index first, Index last);
   [[nodiscard]] Outcome update_particle(std::size_t i);
+  [[nodiscard]] fpz::Report update_crack(std::size_t i, const Material<double>& m);
+  /// Of a particle that is intact, or whose crack takes another plane.
+  [[nodiscard]] fpz::Report update_onset(std::size_t i, Material<double>& m);
+  void finish(std::size_t i, const Material<double>& m, double dissipated);
+  /// Stores the stress at n + 1 (of the frame of n + 1) and what the force sums.
+  void set_stress(std::size_t i, const Tensor<double, Dim>& stress);
   /// H of a particle that has just cracked on a plane with this normal: by the band rule, where that is asked for.
   void set_band_length(std::size_t i, const Vec<double, Dim>& normal);
   /// H of a particle whose crack has the given unit normal, m: band_width() of its neighbours, those that it still has.

@@ -69,20 +69,33 @@ double CrackBands<Dim>::strain_along(const Plane& plane, std::size_t j) const {
 }
 
 template <int Dim>
-double CrackBands<Dim>::opening_around(const Plane& plane, std::size_t i) const {
+typename CrackBands<Dim>::Window CrackBands<Dim>::window_around(std::size_t i) const {
   const Particles<Dim>& p = run_.particles;
+  Window window;
+  window.frame = p.point[i].frame;
+  const Vec<double, Dim> normal = window.frame.row(0).transpose(), tangent = window.frame.row(1).transpose();
   const double size = std::sqrt(p.volume[i]);
-  double sum = 0.0, all = 0.0;
   const auto add = [&](std::size_t j) {
     const Vec<double, Dim> r(p.start[0][j] - p.start[0][i], p.start[1][j] - p.start[1][i]);
-    const double weight =
-        across(std::abs(plane.normal.dot(r)) / size) * along(std::abs(plane.tangent.dot(r)) / size) * p.volume[j];
-    all += weight;
-    if (p.kind[j] == kind::cracked) sum += weight * strain_along(plane, j);
+    const double weight = across(std::abs(normal.dot(r)) / size) * along(std::abs(tangent.dot(r)) / size) * p.volume[j];
+    if (weight == 0.0) return;
+    window.all += weight;
+    window.parts.push_back({j, weight});
   };
   add(i);
   for (const int j : lists_[i]) add(static_cast<std::size_t>(j));
-  return window_width * size * sum / all;
+  return window;
+}
+
+template <int Dim>
+double CrackBands<Dim>::opening_around(const Plane& plane, std::size_t i) const {
+  const Particles<Dim>& p = run_.particles;
+  const Window& window = windows_[window_of_[i]];
+  double sum = 0.0;
+  for (const auto& part : window.parts) {
+    if (p.kind[part.particle] == kind::cracked) sum += part.weight * strain_along(plane, part.particle);
+  }
+  return window_width * std::sqrt(p.volume[i]) * sum / window.all;
 }
 
 template <int Dim>
@@ -120,6 +133,7 @@ double CrackBands<Dim>::length_of(std::size_t i) const {
 template <int Dim>
 void CrackBands<Dim>::change_length(std::size_t i, double length) {
   Particles<Dim>& p = run_.particles;
+  if (length == p.length[i]) return;
   State<double, Dim>& point = p.point[i];
   const Material<double> m = run_.materials.material(i, p.length[i]);
   const Tensor<double, Dim> bulk = bulk_strain<double, Dim>(m, point);
@@ -151,7 +165,16 @@ void CrackBands<Dim>::follow() {
     separate<Dim>(lists_, run_.setup.arrangement.cuts, p.start);
     run_.keep_apart(lists_);
   }
-  run_.for_cracked([this](std::size_t i) { find_opened(i); });
+  for (const std::size_t i : run_.cracked) {
+    if (window_of_[i] != no_window) continue;
+    window_of_[i] = windows_.size();
+    windows_.emplace_back();
+  }
+  run_.for_cracked([this](std::size_t i) {
+    find_opened(i);
+    Window& window = windows_[window_of_[i]];
+    if (window.parts.empty() || window.frame != run_.particles.point[i].frame) window = window_around(i);
+  });
   run_.for_cracked([this](std::size_t i) {
     if (at_first_[i] == 0.0) begin(i);
     wanted_[i] = length_of(i);

@@ -1,6 +1,8 @@
 // H of cracked particles of the undeformed body while their cracks open: the band over which a crack has really spread.
 #pragma once
 
+#include <limits>
+
 #include "bonds.hpp"
 #include "plane.hpp"
 #include "run_data.hpp"
@@ -35,6 +37,7 @@ class CrackBands {
     wanted_.assign(count, 0.0);
     at_first_.assign(count, 0.0);
     longest_.assign(count, 0.0);
+    window_of_.assign(count, no_window);
   }
 
   /// Finds H of the cracked particles again, at strains and stresses of n.
@@ -56,18 +59,32 @@ class CrackBands {
 
  private:
   struct Plane;  ///< the crack of a particle and how it opens
+  /// Over what is averaged around a particle, as long as its crack has this frame.
+  struct Window {
+    struct Part {
+      std::size_t particle;
+      double weight;  ///< m^2
+    };
+    Mat<double, Dim, Dim> frame;
+    std::vector<Part> parts;
+    double all = 0.0;  ///< sum of the weights, m^2
+  };
+  static constexpr std::size_t no_window = std::numeric_limits<std::size_t>::max();
 
   void find_opened(std::size_t i);
   /// opened_ of particle j along the jump of a crack with this plane.
   [[nodiscard]] double strain_along(const Plane& plane, std::size_t j) const;
   /// Width of the window times the mean opening strain in it, m.
   [[nodiscard]] double opening_around(const Plane& plane, std::size_t i) const;
+  [[nodiscard]] Window window_around(std::size_t i) const;
   void begin(std::size_t i);  ///< with a particle that has just cracked
   [[nodiscard]] double length_of(std::size_t i) const;
   void change_length(std::size_t i, double length);
 
   RunData<Dim>& run_;
   NeighbourLists lists_;             ///< the windows, made with the first crack
+  std::vector<std::size_t> window_of_;  ///< of each particle: its place among them
+  std::vector<Window> windows_;
   Fields<tensor_size<Dim>> shift_;   ///< saved
   Field at_first_;                   ///< saved: the H of the arrangement, m, of cracked particles
   Field longest_;                    ///< saved: m, of cracked particles
