@@ -16,6 +16,7 @@ out="${1:-build/validation}"
 # The most important first.
 sweeps=(
   method_dogbone method_compression method_disc method_beam
+  solver_beam solver_scb
   beam_spacing beam_rollers beam_rate scb_angles ring_diameters
   beam_methods beam_fine scb_updated beam_methods_fine
 )

@@ -32,6 +32,8 @@ std::string report(const Results& results, const Gallery& gallery) {
   write_method(out, results, gallery);
   out << "\n";
   write_cost(out, results, gallery);
+  out << "\n";
+  write_solvers(out, results, gallery);
   return out.str();
 }
 

@@ -130,9 +130,9 @@ SweepRuns load_sweep(const fs::path& folder, const std::string& name) {
 }
 
 std::vector<const SweepRuns*> Results::all() const {
-  return {&beam_spacing,       &beam_fine,   &beam_rollers, &beam_rate,      &beam_methods,
-          &beam_methods_fine,  &scb_angles,  &scb_updated,  &ring_diameters, &method_dogbone,
-          &method_compression, &method_disc, &method_beam};
+  return {&beam_spacing,      &beam_fine,      &beam_rollers,       &beam_rate,      &beam_methods,
+          &beam_methods_fine, &scb_angles,     &scb_updated,        &ring_diameters, &solver_beam,
+          &solver_scb,        &method_dogbone, &method_compression, &method_disc,    &method_beam};
 }
 
 Results load_results(const fs::path& folder) {
@@ -147,6 +147,8 @@ Results load_results(const fs::path& folder) {
           load("scb_angles"),
           load("scb_updated"),
           load("ring_diameters"),
+          load("solver_beam"),
+          load("solver_scb"),
           load("method_dogbone"),
           load("method_compression"),
           load("method_disc"),

@@ -54,6 +54,7 @@ struct Results {
   std::filesystem::path folder;
   SweepRuns beam_spacing, beam_fine, beam_rollers, beam_rate, beam_methods, beam_methods_fine;
   SweepRuns scb_angles, scb_updated, ring_diameters;
+  SweepRuns solver_beam, solver_scb;
   SweepRuns method_dogbone, method_compression, method_disc, method_beam;
 
   [[nodiscard]] std::vector<const SweepRuns*> all() const;

@@ -12,6 +12,7 @@ void write_beam(std::ostream& out, const Results& results, const Gallery& galler
 void write_semicircular(std::ostream& out, const Results& results, const Gallery& gallery);
 void write_ring(std::ostream& out, const Results& results, const Gallery& gallery);
 void write_method(std::ostream& out, const Results& results, const Gallery& gallery);
+void write_solvers(std::ostream& out, const Results& results, const Gallery& gallery);
 void write_cost(std::ostream& out, const Results& results, const Gallery& gallery);
 
 }  // namespace fpz::report

@@ -15,14 +15,14 @@ double Actuator::stable_step(double mass) const {
   return 2.0 * std::sqrt(mass / drive.machine_stiffness);
 }
 
-void Actuator::advance(double now, double step, double past, double group_velocity) {
+void Actuator::advance(double now, double pace, double step, double past, double group_velocity) {
   stretch += past * (drive_velocity - group_velocity);
   switch (drive.kind) {
     case Drive::Kind::velocity:
-      drive_velocity = drive.table.at(now + 0.5 * step);
+      drive_velocity = pace * drive.table.at(now + 0.5 * pace * step);
       break;
     case Drive::Kind::displacement:
-      drive_velocity = (drive.table.at(now + step) - drive.table.at(now)) / step;
+      drive_velocity = (drive.table.at(now + pace * step) - drive.table.at(now)) / step;
       break;
     case Drive::Kind::steered:
       drive_velocity = steered;

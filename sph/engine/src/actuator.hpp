@@ -16,9 +16,10 @@ struct Actuator {
   [[nodiscard]] std::optional<double> start_velocity() const;
   /// Longest time step of the machine with a mass (kg) behind it, s.
   [[nodiscard]] double stable_step(double mass) const;
-  /// To n, where the drive sets out for n + 1; the group has moved at `group_velocity` (m/s) for `past` (s).
-  void advance(double now, double step, double past, double group_velocity);
-  /// On a group that yields, at n, N.
+  /// To n, where the clock shows `now` (s) and the drive sets out for n + 1, `step` (s) later, at that pace of the
+  /// clock; the group has moved at `group_velocity` (m/s) for `past` (s).
+  void advance(double now, double pace, double step, double past, double group_velocity);
+  /// On a group that yields, at n, where the clock shows `now` (s), N.
   [[nodiscard]] double force(double now) const;
   /// Another drive from n on. The force goes on from what it is: a machine begins as strained as that takes.
   void change(const Drive& other, double force);

@@ -18,7 +18,7 @@ void AppliedLoad<Dim>::push() {
   RunData<Dim>& run = this->run_;
   const Particles<Dim>& p = run.particles;
   const double old_factor = factor_, old_path = path_;
-  factor_ = table_.at(run.now());
+  factor_ = table_.at(run.loading_time());
   path_ = 0.0;
   for (const Force& f : forces_) {
     for (std::size_t c = 0; c < run.dimensions; ++c) {

@@ -27,7 +27,7 @@ double BondedPlaten<Dim>::next_velocity(std::size_t c, double step) const {
   const Actuator& actuator = *actuator_[c];
   if (!actuator.yields()) return actuator.drive_velocity;
   const Particles<Dim>& p = this->run_.particles;
-  double momentum = step * actuator.force(this->run_.now());
+  double momentum = step * actuator.force(this->run_.loading_time());
   for (const std::size_t i : slots_) momentum += p.mass[i] * p.velocity[c][i];
   return momentum / mass_;
 }
@@ -41,7 +41,7 @@ void BondedPlaten<Dim>::act(double step) {
   for (std::size_t c = 0; c < run.dimensions; ++c) {
     if (!actuator_[c]) continue;
     const auto k = static_cast<int>(c);
-    actuator_[c]->advance(run.now(), run.dt, run.started ? run.dt : 0.0, velocity_[k]);
+    actuator_[c]->advance(run.loading_time(), run.clock.pace, run.dt, run.started ? run.dt : 0.0, velocity_[k]);
     velocity_[k] = next_velocity(c, step);
     for (const std::size_t i : slots_) reaction_[k] += this->impose(i, c, velocity_[k], step);
   }

@@ -59,9 +59,9 @@ void HingedPlaten<Dim>::act(double step) {
   std::array<std::optional<double>, 2> prescribed;
   for (std::size_t c = 0; c < run.dimensions; ++c) {
     Actuator& actuator = actuator_[c];
-    actuator.advance(run.now(), run.dt, past, old_velocity[static_cast<int>(c)]);
+    actuator.advance(run.loading_time(), run.clock.pace, run.dt, past, old_velocity[static_cast<int>(c)]);
     if (actuator.yields()) {
-      impulse[static_cast<int>(c)] = step * actuator.force(run.now());
+      impulse[static_cast<int>(c)] = step * actuator.force(run.loading_time());
     } else {
       prescribed[c] = actuator.drive_velocity;
     }

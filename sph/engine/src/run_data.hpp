@@ -4,6 +4,7 @@
 #include "bonds.hpp"
 #include "fpz/options.hpp"
 #include "fpz/sph/simulation.hpp"
+#include "loading_clock.hpp"
 #include "particle_materials.hpp"
 #include "team.hpp"
 #include "work_ledger.hpp"
@@ -29,6 +30,7 @@ struct RunData {
 
   long long steps = 0;
   bool started = false;  ///< the velocities are half a step ahead
+  LoadingClock clock;    ///< of drives and loads
 
   Particles<Dim> particles;
   std::vector<std::size_t> slot_of;
@@ -59,6 +61,8 @@ struct RunData {
   /// Drops the pairs that never have bonds: of different pieces, and of a group that keeps to itself and another one.
   void keep_apart(NeighbourLists& lists) const;
   [[nodiscard]] double now() const { return static_cast<double>(steps) * dt; }
+  /// What the clock of drives and loads shows, s.
+  [[nodiscard]] double loading_time() const { return clock.at(steps, dt); }
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {

@@ -85,6 +85,19 @@ long long Simulation<Dim>::steps() const {
   return engine_->run.steps;
 }
 template <int Dim>
+double Simulation<Dim>::loading_time() const {
+  return engine_->run.loading_time();
+}
+template <int Dim>
+double Simulation<Dim>::pace() const {
+  return engine_->run.clock.pace;
+}
+template <int Dim>
+long long Simulation<Dim>::loading_steps() const {
+  constexpr double rounding = 1e-6;  // of a step: of a sum over many changes of the pace
+  return static_cast<long long>(engine_->run.loading_time() / engine_->run.dt + rounding);
+}
+template <int Dim>
 const Particles<Dim>& Simulation<Dim>::particles() const {
   return engine_->run.particles;
 }
@@ -103,6 +116,15 @@ Vec<double, Dim> Simulation<Dim>::velocity(std::size_t group) const {
 template <int Dim>
 double Simulation<Dim>::factor(std::size_t load) const {
   return engine_->boundaries.at(engine_->run.setup.groups.size() + load)->factor();
+}
+
+template <int Dim>
+void Simulation<Dim>::set_pace(double pace) {
+  if (!(pace >= 0.0 && std::isfinite(pace))) {
+    throw std::invalid_argument("pace = " + std::to_string(pace) + ": must be a number, not below 0");
+  }
+  detail::RunData<Dim>& run = engine_->run;
+  run.clock.change(pace, run.steps, run.dt);
 }
 
 namespace {

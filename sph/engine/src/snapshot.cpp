@@ -10,7 +10,7 @@ namespace fpz::sph {
 
 namespace {
 
-constexpr std::uint64_t magic = 0x394850535a5046ULL;  // "FPZSPH9"; the last figure is the version
+constexpr std::uint64_t magic = 0x414850535a5046ULL;  // "FPZSPHA"; the last letter is the version
 
 /// Adds the options on which the result depends.
 struct OptionPrint {
@@ -92,6 +92,7 @@ template <class A, class R>
 void transfer_run(A& archive, R& run) {
   archive(run.steps);
   archive(run.started);
+  archive(run.clock);
   archive(run.view.damping_part);
   archive(run.view.damped);
   std::remove_cvref_t<decltype(run.ledger)>::transfer_sums(archive, run.ledger);

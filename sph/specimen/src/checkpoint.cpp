@@ -8,7 +8,7 @@
 namespace fpz::specimen::detail {
 namespace {
 
-constexpr std::uint64_t magic = 0x34305055524b4346ULL;  // "FCKRUP04"
+constexpr std::uint64_t magic = 0x35305055524b4346ULL;  // "FCKRUP05"
 
 }  // namespace
 

@@ -1,11 +1,13 @@
 // A checkpoint: the file from which a run goes on bit for bit. It holds the scene, the parts of recorder, frame
-// writer and stage keeper, the wall times, and a snapshot: the state of the particles as the engine makes bytes of it.
+// writer, stage keeper and pace keeper, the wall times, and a snapshot: the state of the particles as the engine makes
+// bytes of it.
 //
 // Every struct in it has one function transfer() for both directions, which takes the struct apart by name: a member
 // that is left out does not compile.
 #pragma once
 
 #include "frame_writer.hpp"
+#include "pace_keeper.hpp"
 #include "recorder.hpp"
 #include "stage_keeper.hpp"
 
@@ -32,6 +34,7 @@ struct Checkpoint {
   RecorderState recorder;
   FrameWriterState frames;
   StageState stages;
+  PaceState pace;
   long long row_every = 1, frame_every = 0;  ///< steps: those of its own end, also when the run goes on to a later one
   WallTimes seconds;
   std::vector<unsigned char> snapshot;
@@ -39,8 +42,8 @@ struct Checkpoint {
 
 template <class Archive, class C>
 void transfer(Archive& archive, C& checkpoint) requires std::same_as<std::remove_const_t<C>, Checkpoint> {
-  auto& [scene_text, recorder, frames, stages, row_every, frame_every, seconds, snapshot] = checkpoint;
-  archive(scene_text), archive(recorder), archive(frames), archive(stages);
+  auto& [scene_text, recorder, frames, stages, pace, row_every, frame_every, seconds, snapshot] = checkpoint;
+  archive(scene_text), archive(recorder), archive(frames), archive(stages), archive(pace);
   archive(row_every), archive(frame_every), archive(seconds), archive(snapshot);
 }
 

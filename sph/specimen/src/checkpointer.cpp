@@ -22,9 +22,10 @@ std::string without_end(const std::string& scene) {
 }  // namespace
 
 void Checkpointer::save(const sph::Simulation<2>& run, const Recorder& recorder, const FrameWriter& frames,
-                        const StageKeeper& stages, const Schedule& schedule, const WallTimes& seconds) {
+                        const StageKeeper& stages, const PaceKeeper& pace, const Schedule& schedule,
+                        const WallTimes& seconds) {
   io::write_text(files_.history, recorder.history().to_csv(), true);
-  write_checkpoint(files_.checkpoint, {scene_.text, recorder.state(), frames.state(), stages.state(),
+  write_checkpoint(files_.checkpoint, {scene_.text, recorder.state(), frames.state(), stages.state(), pace.state(),
                                        schedule.row_every, schedule.frame_every, seconds, run.snapshot()});
   last_ = Clock::now();
 }
@@ -35,7 +36,7 @@ bool Checkpointer::due() const {
 }
 
 void Checkpointer::resume(sph::Simulation<2>& run, Recorder& recorder, FrameWriter& frames, StageKeeper& stages,
-                          Schedule& schedule, WallTimes& seconds) const {
+                          PaceKeeper& pace, Schedule& schedule, WallTimes& seconds) const {
   Checkpoint c = read_checkpoint(files_.checkpoint);
   if (c.scene_text == scene_.text && std::filesystem::exists(files_.summary)) {
     throw io::InputError(files_.checkpoint.string() +
@@ -54,6 +55,7 @@ void Checkpointer::resume(sph::Simulation<2>& run, Recorder& recorder, FrameWrit
   recorder.restore(std::move(c.recorder));
   frames.restore(std::move(c.frames));
   stages.restore(std::move(c.stages));
+  pace.restore(c.pace);
   schedule.row_every = c.row_every;
   schedule.frame_every = c.frame_every;
   frames.set_interval(c.frame_every);

@@ -13,13 +13,13 @@ class Checkpointer {
 
   /// Writes history and checkpoint, each whole under a temporary name: at any moment both files are complete.
   void save(const sph::Simulation<2>& run, const Recorder& recorder, const FrameWriter& frames,
-            const StageKeeper& stages, const Schedule& schedule, const WallTimes& seconds);
+            const StageKeeper& stages, const PaceKeeper& pace, const Schedule& schedule, const WallTimes& seconds);
   /// Whether the interval of the scene has passed since the last save().
   [[nodiscard]] bool due() const;
   /// Puts the run where its checkpoint was written; rows and frames keep their distances. Throws io::InputError when
   /// there is no usable one of this scene, which may differ in what ends its last stage.
-  void resume(sph::Simulation<2>& run, Recorder& recorder, FrameWriter& frames, StageKeeper& stages, Schedule& schedule,
-              WallTimes& seconds) const;
+  void resume(sph::Simulation<2>& run, Recorder& recorder, FrameWriter& frames, StageKeeper& stages, PaceKeeper& pace,
+              Schedule& schedule, WallTimes& seconds) const;
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -18,7 +18,7 @@ FrameWriter::FrameWriter(const Scene& scene, const Specimen& specimen, const Run
 }
 
 void FrameWriter::after_row(const sph::Simulation<2>& run, const Recorder& recorder) {
-  bool wanted = every_ > 0 && run.steps() % every_ == 0;
+  bool wanted = every_ > 0 && run.loading_steps() / every_ != state_.interval;
   if (recorder.at_peak())
     std::fill(state_.levels_done.begin(), state_.levels_done.end(), static_cast<unsigned char>(0));
   const auto check = [&](unsigned char& done, bool reached) {
@@ -26,6 +26,7 @@ void FrameWriter::after_row(const sph::Simulation<2>& run, const Recorder& recor
     done = 1;
     wanted = true;
   };
+  if (every_ > 0) state_.interval = run.loading_steps() / every_;
   const double load = recorder.history().last("load"), deflection = recorder.history().last("deflection");
   for (std::size_t k = 0; k < levels_.size(); ++k) {
     const bool fallen = levels_[k] > 0.0 && run.cracked() > 0 && load < levels_[k] * recorder.peak_load();
@@ -38,7 +39,7 @@ void FrameWriter::after_row(const sph::Simulation<2>& run, const Recorder& recor
 }
 
 void FrameWriter::write_last(const sph::Simulation<2>& run) {
-  if (state_.frames.empty() || state_.frames.back().time != run.time()) write(run);
+  if (state_.frames.empty() || state_.frames.back().time != run.loading_time()) write(run);
 }
 
 double FrameWriter::expected() const {
@@ -49,7 +50,7 @@ void FrameWriter::write(const sph::Simulation<2>& run) {
   char name[40];
   std::snprintf(name, sizeof name, "frame_%05zu.vtu", state_.frames.size());
   write_vtu(files_.frames / name, frame_of(run, specimen_));
-  state_.frames.push_back({run.time(), files_.frames.filename().string() + "/" + name});
+  state_.frames.push_back({run.loading_time(), files_.frames.filename().string() + "/" + name});
   write_pvd(files_.collection, state_.frames);
 }
 

@@ -10,14 +10,15 @@ namespace fpz::specimen::detail {
 /// The frame writer's part of a checkpoint.
 struct FrameWriterState {
   std::vector<Frame> frames;
+  long long interval = 0;                       ///< of the loading, in which the last row was
   std::vector<unsigned char> levels_done;       ///< parts of the peak load that have their frame since the last peak
   std::vector<unsigned char> deflections_done;  ///< the same of the deflections
 };
 
 template <class Archive, class State>
 void transfer(Archive& archive, State& state) requires std::same_as<std::remove_const_t<State>, FrameWriterState> {
-  auto& [frames, levels_done, deflections_done] = state;  // a member that is not handed on does not compile
-  archive(frames), archive(levels_done), archive(deflections_done);
+  auto& [frames, interval, levels_done, deflections_done] = state;  // a member that is not handed on does not compile
+  archive(frames), archive(interval), archive(levels_done), archive(deflections_done);
 }
 
 class FrameWriter {

@@ -17,7 +17,8 @@ double largest_damage(const sph::Simulation<2>& run) {
 /// Before the steering gauges.
 std::vector<HistoryColumn> leading() {
   return {{"step", "", "steps since the start", [](const RowSource& s) { return static_cast<double>(s.run.steps()); }},
-          {"time", "s", "time since the start", [](const RowSource& s) { return s.run.time(); }}};
+          {"time", "s", "time of the loading since the start (that of the body at pace 1)",
+           [](const RowSource& s) { return s.run.loading_time(); }}};
 }
 
 std::vector<HistoryColumn> energies() {

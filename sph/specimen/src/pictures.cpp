@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
+#include "convergence.hpp"
 #include "fpz/io/csv.hpp"
 #include "fpz/io/gnuplot.hpp"
 #include "fpz/io/input_error.hpp"
@@ -31,6 +33,14 @@ Series curve(const io::Table& t, const char* x, double x_scale, const std::strin
   return s;
 }
 
+/// The darker the later of so many.
+std::string grey_of(std::size_t n, std::size_t count) {
+  const int shade = 210 - static_cast<int>(110.0 * static_cast<double>(n) / static_cast<double>(count));
+  char colour[16];
+  std::snprintf(colour, sizeof colour, "#%02X%02X%02X", shade, shade, shade);
+  return line(colour);
+}
+
 void drop_empty(std::vector<Series>& series) {
   std::erase_if(series, [](const Series& s) { return s.points.empty(); });
 }
@@ -44,6 +54,23 @@ Picture load_deflection(const io::Table& t, const std::string& title) {
   p.series.push_back(curve(t, "deflection", 1e6, "load", 1e-3, "load", line(blue)));
   drop_empty(p.series);
   return with_legend("load_deflection", p, 2);
+}
+
+/// The runs of a solver that repeats them, the last one in full colour.
+Picture convergence(const fs::path& folder, const io::Table& runs, const std::string& title) {
+  Panel p;
+  p.title = title;
+  p.x_label = "deflection, µm";
+  p.y_label = "load, kN";
+  const std::size_t count = runs.at("pace").size();
+  for (std::size_t n = 0; n < count; ++n) {
+    const io::Table t = io::read_csv(history_of_run(folder, n));
+    const std::string name = "pace " + text_of(runs.at("pace")[n]);
+    p.series.push_back(
+        curve(t, "deflection", 1e6, "load", 1e-3, name, n + 1 == count ? line(blue) : grey_of(n, count)));
+  }
+  drop_empty(p.series);
+  return with_legend("convergence", p, 4);
 }
 
 Picture energies(const io::Table& t, const std::string& title) {
@@ -155,6 +182,10 @@ PictureOutcome draw_run(const fs::path& folder, bool force) {
   if (gnuplot_missing(outcome)) return outcome;
   std::vector<Picture> pictures = {load_deflection(t, io::gnuplot_plain(scene.name)),
                                    energies(t, io::gnuplot_plain(scene.name))};
+  const fs::path runs = convergence_table(folder);
+  if (fs::exists(runs)) {
+    pictures.push_back(convergence(folder, io::read_csv(runs), io::gnuplot_plain(scene.name)));
+  }
   if (!frames.empty()) {
     const auto maps = damage_maps(folder, frames, t, scene.output.picture_loads);
     if (!maps.empty()) pictures.push_back(map_picture("damage", maps, damage_classes(), scene.spacing, 7));

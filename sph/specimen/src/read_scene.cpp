@@ -9,10 +9,10 @@ namespace {
 using namespace detail;
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 23> root_keys = {
+constexpr std::array<std::string_view, 24> root_keys = {
     "name",       "description", "source",  "material",   "setting",        "thickness",   "spacing", "shape",
     "holes",      "notches",     "regions", "interfaces", "strength_field", "arrangement", "method",  "initial_stress",
-    "boundaries", "loads",       "gauges",  "toughness",  "stages",         "stop",        "output"};
+    "boundaries", "loads",       "gauges",  "toughness",  "stages",         "stop",        "output",  "solver"};
 
 /// Kernel gradients keep constant stress in equilibrium where all neighbourhoods are alike: on lattices.
 void judge_operator(Scene& scene) {
@@ -116,6 +116,7 @@ Scene read_tree(JsonValue& root, const std::string& origin, const io::ReadLimits
   with_required(r, top, "gauges", [&](const Place& p) { read_gauges(r, p, scene); });
   read_toughness(r, root, scene);
   read_stages(r, top, gauges, scene);
+  with(top, "solver", [&](const Place& p) { read_solver(r, p, scene); });
   with(top, "output", [&](const Place& p) { read_output(r, p, scene.output); });
   if (material) {
     scene.parameters = material->parameters;

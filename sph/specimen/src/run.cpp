@@ -7,12 +7,14 @@
 #include <system_error>
 
 #include "checkpointer.hpp"
+#include "convergence.hpp"
 #include "fpz/io/output.hpp"
 #include "fpz/io/problems.hpp"
 #include "fpz/specimen/bifurcation.hpp"
 #include "fpz/specimen/closure.hpp"
 #include "fpz/specimen/summary.hpp"
 #include "frame_writer.hpp"
+#include "pace_keeper.hpp"
 #include "recorder.hpp"
 #include "run_folder.hpp"
 #include "stage_keeper.hpp"
@@ -51,12 +53,14 @@ class Runner {
         recorder_(scene, specimen_),
         frames_(scene, specimen_, files_, schedule_.frame_every),
         stages_(scene, specimen_, run_.time_step()),
+        pace_(scene, run_.time_step()),
         checkpointer_(scene, files_) {
     const std::string slow = warning_of_time_step(specimen_.setup, run_.time_step());
     if (!slow.empty()) specimen_.warnings.push_back(slow);
   }
 
-  RunResult go() {
+  /// `judge` may say more about the result, before it is summed up.
+  RunResult go(const std::function<void(RunResult&)>& judge = {}) {
     if (request_.warn) request_.warn(specimen_.warnings);
     prepare();
     RunResult result;
@@ -71,7 +75,10 @@ class Runner {
     result.frames = frames_.frames();
     result.stages = stages_.ended();
     result.seconds = seconds();
-    if (result.ending != Ending::interrupted) sum_up(result);
+    if (result.ending != Ending::interrupted) {
+      if (judge) judge(result);
+      sum_up(result);
+    }
     return result;
   }
 
@@ -79,11 +86,12 @@ class Runner {
   void prepare() {
     io::make_writable_folder(request_.folder);
     if (request_.resume) {
-      checkpointer_.resume(run_, recorder_, frames_, stages_, schedule_, earlier_);
+      checkpointer_.resume(run_, recorder_, frames_, stages_, pace_, schedule_, earlier_);
     } else {
       io::require_absent({files_.scene, files_.history, files_.summary, files_.checkpoint, files_.frames},
                          request_.force);
       clear_earlier_run(files_);
+      if (scene_.solver.kind != Solver::Kind::converged) forget_runs(request_.folder);
     }
     require_space(request_.folder, expected_bytes());
     io::make_writable_folder(files_.frames);
@@ -93,7 +101,16 @@ class Runner {
       recorder_.add_row(run_);
       frames_.write_first(run_);
     }
+    last_row_ = run_.loading_steps() / schedule_.row_every;
     save();  // before the work: a folder that cannot hold a checkpoint is found now
+  }
+
+  /// Rows are at even distances of the loading.
+  [[nodiscard]] bool row_is_due(long long loaded) {
+    const long long row = loaded / schedule_.row_every;
+    if (row == last_row_) return false;
+    last_row_ = row;
+    return true;
   }
 
   /// One step and what follows it. Gives `result` a reason when the run ends.
@@ -103,13 +120,15 @@ class Runner {
     const sph::Outcome outcome = run_.step();
     stepping_seconds_ += seconds_since(before);
     ++steps_here_;
-    recorder_.accumulate(run_);
+    const long long loaded = run_.loading_steps();
     if (!outcome.ok()) {
       result.ending = Ending::failed;
       result.reason = outcome.message();
       return;
     }
-    if (run_.steps() % schedule_.row_every == 0) {
+    const StepUse use = pace_.after_step(run_);
+    if (use.in_row) recorder_.accumulate(run_);
+    if (use.equilibrium || (!pace_.makes_rows() && row_is_due(loaded))) {
       recorder_.add_row(run_);
       frames_.after_row(run_, recorder_);
       bool changed = false;
@@ -162,6 +181,7 @@ class Runner {
       result.reason += (result.reason.empty() ? "" : "; ") + error;
     }
     result.report = report_of(f);
+    if (!result.solver_report.empty()) result.report += "  " + result.solver_report + "\n";
     io::write_text(files_.summary, summary_text({scene_, specimen_, run_, result, f, paths, pieces}), true);
     if (may_go_on(result)) return;
     std::error_code ignored;
@@ -183,7 +203,7 @@ class Runner {
     return all;
   }
 
-  void save() { checkpointer_.save(run_, recorder_, frames_, stages_, schedule_, seconds()); }
+  void save() { checkpointer_.save(run_, recorder_, frames_, stages_, pace_, schedule_, seconds()); }
 
   [[nodiscard]] bool wanted_to_stop() const {
     return (request_.interrupt != nullptr && *request_.interrupt != 0) ||
@@ -205,10 +225,10 @@ class Runner {
     if (!request_.progress) return;
     const History& h = recorder_.history();
     Progress p;
-    p.fraction = static_cast<double>(run_.steps()) / static_cast<double>(schedule_.steps);
+    p.fraction = static_cast<double>(run_.loading_steps()) / static_cast<double>(schedule_.steps);
     if (scene_.stop.deflection) p.fraction = std::max(p.fraction, h.last("deflection") / *scene_.stop.deflection);
     p.seconds = seconds_since(start_);
-    p.time = run_.time();
+    p.time = run_.loading_time();
     p.load = h.last("load");
     p.damaged = run_.cracked();
     p.steps_per_second = static_cast<double>(steps_here_) / p.seconds;
@@ -224,10 +244,12 @@ class Runner {
   Recorder recorder_;
   FrameWriter frames_;
   StageKeeper stages_;
+  PaceKeeper pace_;
   Checkpointer checkpointer_;
   WallTimes earlier_;  ///< of the processes before this one
   double stepping_seconds_ = 0.0;
   long long steps_here_ = 0;
+  long long last_row_ = 0;  ///< see row_is_due()
   Clock::time_point start_ = Clock::now();
 };
 
@@ -263,10 +285,11 @@ long long steps_within(double time, double time_step) {
 }
 
 RunResult run_scene(const Scene& scene, const RunRequest& request) {
-  if (request.threads == 0) return Runner(scene, request).go();
   Scene own = scene;
-  own.options.threads = request.threads;  // not in its text: results do not depend on it
-  return Runner(own, request).go();
+  if (request.threads > 0) own.options.threads = request.threads;  // not in its text: results do not depend on it
+  if (scene.solver.kind != Solver::Kind::converged) return Runner(own, request).go();
+  return run_to_convergence(
+      own, request, [](const Scene& s, const RunRequest& r, const auto& judge) { return Runner(s, r).go(judge); });
 }
 
 }  // namespace fpz::specimen

@@ -131,6 +131,7 @@ void read_regions(const InputReader& r, const Place& place, std::span<const std:
 void read_boundaries(const InputReader& r, const Place& place, std::span<const std::string> gauges,
                      std::span<const std::size_t> materials, Scene& scene);
 void read_loads(const InputReader& r, const Place& place, Scene& scene);
+void read_solver(const InputReader& r, const Place& place, Scene& scene);
 void read_method(const InputReader& r, const Place& place, sph::Options<2>& options);
 void read_gauges(const InputReader& r, const Place& place, Scene& scene);
 /// After the body and the boundaries. The content of a file with factors takes the place of its name in `root`.

@@ -14,19 +14,20 @@ double time_constant(const Servo& servo, const Scene& scene) {
   return passages * (high - low).maxCoeff() / sound;
 }
 
-double next_velocity(const ServoControl& control, double measured, double time_step, ServoState& state) {
+double next_velocity(const ServoControl& control, double measured, double time_step, double pace, ServoState& state) {
   constexpr double integral_times = 4.0;  // time constants: critically damped, about, where the gauge follows at once
   const Servo& s = control.servo;
   if (!state.begun) state = {true, 0.0, measured, 0.0};
   const double grown = control.growth.at(state.time);
   const double lacking = state.target - measured;
   const double tau = control.time_constant;
-  const double wanted = s.speed * (grown + (lacking + state.sum / (integral_times * tau)) / (s.rate * tau));
+  const double proportional = lacking / pace;
+  const double wanted = s.speed * (grown + (proportional + state.sum / (integral_times * tau)) / (s.rate * tau));
   const double velocity = std::clamp(wanted, -s.fastest, s.fastest);
-  if (velocity == wanted) state.sum += time_step * lacking;
-  state.time += time_step;
-  state.target += time_step * s.rate * grown;
-  return velocity;
+  if (velocity == wanted) state.sum += time_step * proportional;
+  state.time += time_step * pace;
+  state.target += time_step * pace * s.rate * grown;
+  return pace * velocity;
 }
 
 }  // namespace fpz::specimen::detail

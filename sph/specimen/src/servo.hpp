@@ -17,9 +17,9 @@ struct ServoControl {
 /// What a servo remembers, all zero at the begin of its stage. In units of its gauge.
 struct ServoState {
   bool begun = false;
-  double time = 0.0;    ///< s since the begin
+  double time = 0.0;    ///< s of loading since the begin
   double target = 0.0;  ///< where the gauge should be
-  double sum = 0.0;     ///< integral of what it lacks, times s
+  double sum = 0.0;     ///< integral of what it lacks over the time of the body, over the pace, times s
 };
 
 template <class Archive, class S>
@@ -31,9 +31,11 @@ void transfer(Archive& archive, S& state) requires std::same_as<std::remove_cons
 /// That of the servo; where it states none, from the scene: the time of a wave through ten times the body's extent.
 [[nodiscard]] double time_constant(const Servo& servo, const Scene& scene);
 
-/// The velocity for the next step, m/s, when the gauge has the value `measured`.
-///   speed (ramp + (e + sum(e) dt/(4 tau)) / (rate tau)),  e = target - measured
-/// within the largest speed; what that cuts off is not summed up.
-[[nodiscard]] double next_velocity(const ServoControl& control, double measured, double time_step, ServoState& state);
+/// The velocity for the next step, m/s, when the gauge has the value `measured` and the loading goes at this pace.
+///   pace speed (ramp + (e + sum(e) dt/(4 tau)) / (pace rate tau)),  e = target - measured
+/// within the largest speed; what that cuts off is not summed up. Rates are those of the loading, dt and tau times of
+/// the body.
+[[nodiscard]] double next_velocity(const ServoControl& control, double measured, double time_step, double pace,
+                                   ServoState& state);
 
 }  // namespace fpz::specimen::detail

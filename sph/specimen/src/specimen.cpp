@@ -183,6 +183,9 @@ Specimen make_specimen(const Scene& scene) {
   for (const Stage& stage : scene.stages) {
     s.setup.most_damping = std::max(s.setup.most_damping, stage.damping.value_or(0.0));
   }
+  if (scene.solver.kind == Solver::Kind::relaxation) {
+    s.setup.most_damping = std::max(s.setup.most_damping, scene.solver.rest_damping);
+  }
   if (scene.options.threads == 0) s.setup.options.threads = worthwhile_threads(a.size());
   add_loads(scene, s);
   fail_if_any(scene, problems(s.setup));
@@ -248,7 +251,7 @@ PointCloud frame_of(const sph::Simulation<2>& run, const Specimen& specimen) {
   }
   const bool updated = is_updated(specimen);
   PointCloud cloud;
-  cloud.time = run.time();
+  cloud.time = run.loading_time();
   const auto add = [&](const char* name, int components, bool single = true) -> std::vector<double>& {
     cloud.data.push_back({name, components, {}, single});
     cloud.data.back().values.reserve(a.size() * static_cast<std::size_t>(components));

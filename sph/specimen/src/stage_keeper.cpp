@@ -44,7 +44,8 @@ void StageKeeper::find_servos() {
 void StageKeeper::steer(sph::Simulation<2>& run) {
   for (std::size_t k = 0; k < servos_.size(); ++k) {
     const ServoControl& s = servos_[k];
-    const double velocity = next_velocity(s, s.gauge.value(run, scene_.thickness), time_step_, state_.servos[k]);
+    const double measured = s.gauge.value(run, scene_.thickness);
+    const double velocity = next_velocity(s, measured, time_step_, run.pace(), state_.servos[k]);
     run.steer(s.group, s.component, velocity);
   }
 }
@@ -52,7 +53,7 @@ void StageKeeper::steer(sph::Simulation<2>& run) {
 std::string StageKeeper::after_row(sph::Simulation<2>& run, const Recorder& recorder, bool& changed) {
   const StopState now{scene_,     specimen_,
                       stage(),    run,
-                      recorder,   run.steps() - state_.first_step,
+                      recorder,   run.loading_steps() - state_.first_step,
                       time_step_, recorder.history().rows() - state_.first_row};
   std::string reason = stop_reason(now);
   changed = !reason.empty();
@@ -72,12 +73,12 @@ std::string StageKeeper::after_row(sph::Simulation<2>& run, const Recorder& reco
 
 void StageKeeper::finish(const sph::Simulation<2>& run, const std::string& reason) {
   const double begin = static_cast<double>(state_.first_step) * time_step_;
-  state_.ended.push_back({stage().name, reason, begin, run.time(), kinetic_over_elastic(run)});
+  state_.ended.push_back({stage().name, reason, begin, run.loading_time(), kinetic_over_elastic(run)});
 }
 
 void StageKeeper::begin_next(sph::Simulation<2>& run, std::size_t rows) {
   ++state_.index;
-  state_.first_step = run.steps();
+  state_.first_step = run.loading_steps();
   state_.first_row = rows;
   change(run, stage());
   find_servos();
@@ -106,16 +107,16 @@ void StageKeeper::change(sph::Simulation<2>& run, const Stage& next) {
     for (std::size_t c = 0; c < 2; ++c) {
       if (!drive[c]) continue;
       const auto k = static_cast<int>(c);
-      const double velocity = run.velocity(g)[k], force = run.reaction(g)[k] * scene_.thickness;
+      const double velocity = run.velocity(g)[k] / run.pace(), force = run.reaction(g)[k] * scene_.thickness;
       if (drive[c]->kind == sph::Drive::Kind::force) judge_start(force, drive[c]->course, scene_.boundaries[g].name);
-      run.set_drive(g, c, drive[c]->starting(run.time(), velocity, force, scene_.thickness));
-      run.steer(g, c, velocity);
+      run.set_drive(g, c, drive[c]->starting(run.loading_time(), velocity, force, scene_.thickness));
+      run.steer(g, c, run.pace() * velocity);
     }
   }
   take_over(next);
   for (const auto& [k, course] : next.loads) {
     judge_start(run.factor(k), course, scene_.loads[k].name);
-    run.set_factor(k, course.starting(run.time(), run.factor(k)));
+    run.set_factor(k, course.starting(run.loading_time(), run.factor(k)));
   }
   if (next.damping) run.set_damping(*next.damping);
 }

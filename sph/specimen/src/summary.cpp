@@ -125,6 +125,25 @@ Json strength_json(const SummaryInput& in) {
           {"least", least}};
 }
 
+Json solver_json(const SummaryInput& in) {
+  Json j;
+  j["type"] = fpz::to_string(in.scene.solver.kind);
+  j["pace"] = in.run.pace();
+  if (in.result.convergence.empty()) return j;
+  Json runs = Json::array();
+  for (const ConvergenceRun& r : in.result.convergence) {
+    runs.push_back({{"pace", r.pace},
+                    {"steps", r.steps},
+                    {"failed", r.failed},
+                    {"peak_load", number(r.peak_load)},
+                    {"change_of_peak", number(r.change_of_peak)},
+                    {"change_of_work", number(r.change_of_work)}});
+  }
+  j["tolerance"] = in.scene.solver.tolerance;
+  j["runs"] = runs;
+  return j;
+}
+
 Json stages_json(const std::vector<EndedStage>& stages) {
   Json list = Json::array();
   for (const EndedStage& s : stages) {
@@ -351,6 +370,7 @@ std::string summary_text(const SummaryInput& in) {
   if (in.scene.strength_field) j["strength_field"] = strength_json(in);
   j["setting"] = to_string(in.scene.setting);
   j["method"] = method_json(in.scene.options);
+  j["solver"] = solver_json(in);
   j["spacing"] = in.scene.spacing;
   j["thickness"] = in.scene.thickness;
   j["specimen_area"] = in.specimen.area;
@@ -359,7 +379,7 @@ std::string summary_text(const SummaryInput& in) {
   j["neighbour_builds"] = in.run.neighbour_builds();
   j["released_bonds"] = in.run.released_bonds();
   j["damaged_particles"] = in.run.cracked();
-  j["time"] = in.run.time();
+  j["time"] = in.run.loading_time();
   j["time_step"] = in.run.time_step();
   j["steps"] = in.run.steps();
   j["rows"] = h.rows();

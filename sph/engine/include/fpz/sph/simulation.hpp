@@ -90,20 +90,28 @@ class Simulation {
   /// Advances by one time step. After a failure the state is the broken one, for inspection.
   [[nodiscard]] Outcome step();
 
-  [[nodiscard]] double time() const;       ///< s
+  [[nodiscard]] double time() const;       ///< of the body, s
   [[nodiscard]] double time_step() const;  ///< s
   [[nodiscard]] long long steps() const;
+  /// What the clock of drives and loads shows, s; time() at pace 1.
+  [[nodiscard]] double loading_time() const;
+  [[nodiscard]] double pace() const;
+  /// Steps that it would have taken to the present loading_time() at pace 1; steps() at that pace.
+  [[nodiscard]] long long loading_steps() const;
   [[nodiscard]] const Particles<Dim>& particles() const;
   /// Slot of a particle of the arrangement in the arrays of particles().
   [[nodiscard]] std::size_t slot(std::size_t id) const;
   /// Force that keeps a group on its motion, N (per metre of thickness in 2-D), from the momentum balance of its
   /// particles at the last full step; zero in free components.
   [[nodiscard]] Vec<double, Dim> reaction(std::size_t group) const;
-  /// Velocity that a group has by its drives, m/s, half a step ahead; zero in free components.
+  /// Velocity that a group has by its drives, m/s in the time of the body, half a step ahead; zero in free components.
   [[nodiscard]] Vec<double, Dim> velocity(std::size_t group) const;
   /// Of a load, at the last full step.
   [[nodiscard]] double factor(std::size_t load) const;
 
+  /// How fast the clock of drives and loads runs from now on, in seconds per second of the body. All tables (Drive,
+  /// Load) and their velocities follow it; what is steered does not. Throws std::invalid_argument below 0.
+  void set_pace(double pace);
   /// Changes what drives a component of a group from now on; its force goes on without a jump where the machine has a
   /// stiffness. Throws std::invalid_argument for components that are free, and for tables with problems.
   void set_drive(std::size_t group, std::size_t component, const Drive& drive);

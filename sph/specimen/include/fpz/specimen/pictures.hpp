@@ -14,8 +14,9 @@ struct PictureOutcome {
   std::vector<std::string> warnings;
 };
 
-/// load_deflection, energies, damage (maps at the scene's picture loads) and velocity (horizontal, last frame), as PNG
-/// and SVG, from history.csv, frames.pvd and scene.json in the folder. Without gnuplot: a warning. Throws
+/// load_deflection, energies, damage (maps at the scene's picture loads), velocity (horizontal, last frame), and
+/// convergence where a solver has repeated the run, as PNG and SVG, from history.csv, frames.pvd and scene.json in the
+/// folder. Without gnuplot: a warning. Throws
 /// io::InputError when the folder holds no run, io::OutputError when pictures are in the way and not `force`.
 [[nodiscard]] PictureOutcome draw_run(const std::filesystem::path& folder, bool force);
 

@@ -1,6 +1,7 @@
 // Runs a scene into a folder: history, frames, checkpoints, summary.
 #pragma once
 
+#include <cmath>
 #include <csignal>
 #include <filesystem>
 #include <functional>
@@ -49,6 +50,17 @@ struct EndedStage {
   double kinetic_ratio = 0.0;     ///< kinetic over elastic energy at its end; NaN where nothing is strained
 };
 
+/// One of the runs of a solver that repeats them (Solver::Kind::converged).
+struct ConvergenceRun {
+  double pace = 0.0;
+  long long steps = 0;
+  double seconds = 0.0;  ///< of wall time
+  bool failed = false;
+  double peak_load = 0.0;                ///< N
+  double change_of_peak = std::nan("");  ///< from the run before, relative; NaN where there is none
+  double change_of_work = std::nan("");  ///< the same of the area under load over deflection, as far as both go
+};
+
 struct RunResult {
   Ending ending = Ending::finished;
   std::string reason;  ///< which rule ended it, or what failed
@@ -56,6 +68,8 @@ struct RunResult {
   std::vector<Frame> frames;
   WallTimes seconds;
   std::vector<EndedStage> stages;
+  std::vector<ConvergenceRun> convergence;  ///< empty: the solver does not repeat runs
+  std::string solver_report;                ///< what the solver found, in words; may be empty
   std::vector<std::string> warnings;
   std::string report;  ///< the main figures, for a person
 };

@@ -13,6 +13,7 @@
 #include "fpz/specimen/gauge.hpp"
 #include "fpz/specimen/loading.hpp"
 #include "fpz/specimen/placing.hpp"
+#include "fpz/specimen/solver.hpp"
 #include "fpz/specimen/strength_field.hpp"
 #include "fpz/specimen/toughness.hpp"
 #include "fpz/sph/options.hpp"
@@ -128,6 +129,7 @@ struct Scene {
   std::vector<SurfaceLoad> loads;
   std::optional<Tensor<double, 2>> initial_stress;  ///< xx, yy, xy, Pa; everywhere
   sph::Options<2> options;
+  Solver solver;
   std::map<std::string, Gauge> gauges;  ///< "load" and "deflection" are always there
   std::optional<SemicircularBending> toughness;
   std::vector<Stage> stages;  ///< at least one
