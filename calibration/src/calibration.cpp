@@ -171,6 +171,16 @@ std::optional<SmoothCurve> smooth_curve(const DataSet& set, const Calibration& a
   return SmoothCurve{*abscissa, x.values, band_of(all, x)};
 }
 
+/// Largest loads read in two more ways.
+std::optional<SizeEffect> size_effect_of(const DataSet& set, const Comparison& c, const Parameters& parameters) {
+  PeakLoads peaks;
+  peaks.specimens = std::visit([](const auto& test) { return peak_specimens(test); }, set.test);
+  peaks.load = set.measured;
+  peaks.deviation = set.deviation;
+  peaks.deviation_known = set.deviation_known;
+  return size_effect(peaks, c.predicted, parameters);
+}
+
 std::vector<Comparison> compare_all(const Calibration& all) {
   const std::vector<Unknowns> unknowns = unknowns_of(all.specification);
   std::vector<Comparison> list;
@@ -196,6 +206,7 @@ std::vector<Comparison> compare_all(const Calibration& all) {
     }
     c.data_set = k;
     if (c.ok()) c.smooth = smooth_curve(set, all, unknowns[k]);
+    if (c.ok()) c.size_effect = size_effect_of(set, c, all.parameters);
     list.push_back(std::move(c));
   }
   return list;

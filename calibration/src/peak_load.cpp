@@ -32,4 +32,10 @@ Prediction predict(const PeakLoadTest& test, const Parameters& parameters, bool 
   return out;
 }
 
+std::vector<NotchedSpecimen> peak_specimens(const PeakLoadTest& test) {
+  std::vector<NotchedSpecimen> list;
+  for (const PeakLoadSpecimen& s : test.specimens) list.push_back(s.specimen);
+  return list;
+}
+
 }  // namespace fpz::calibration

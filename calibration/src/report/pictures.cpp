@@ -194,6 +194,75 @@ Picture values_picture(const Calibration& all, const Comparison& c) {
   return picture;
 }
 
+/// 1, 2, 3, 5 and 7 times the powers of ten in a range, as gnuplot lists tics.
+std::string decade_tics(const Point& range) {
+  std::string list;
+  for (double power = std::pow(10.0, std::floor(std::log10(range.first))); power < range.second; power *= 10.0) {
+    for (const double digit : {1.0, 2.0, 3.0, 5.0, 7.0}) {
+      const double tic = digit * power;
+      if (tic < range.first || tic > range.second) continue;
+      list += (list.empty() ? "" : ", ") + gnuplot_quoted(digits(tic)) + ' ' + gnuplot_number(tic);
+    }
+  }
+  return list;
+}
+
+/// Nominal stress over size on logarithmic axes. Specimens of several shapes are brought together by g and g' (Bazant
+/// and Kazemi): P sqrt(g')/(thickness D) over D g/g'.
+Picture draw_size_effect(const DataSet& set, const SizeEffect& e) {
+  std::vector<Point> measured, model, law, model_curve;
+  const auto shown = [&](const GeometryFunction& f, double size, double stress) {
+    const double g = f.g(), s = f.g_slope();
+    return e.similar ? Point{1e3 * size, 1e-6 * stress} : Point{1e3 * size * g / s, 1e-6 * stress * std::sqrt(s)};
+  };
+  const GeometryFunction& shape = e.points.front().geometry;
+  double low = INFINITY, high = 0.0;
+  for (const SizeEffectPoint& p : e.points) {
+    measured.push_back(shown(p.geometry, p.size, p.stress));
+    model.push_back(shown(p.geometry, p.size, p.model_stress));
+    low = std::min(low, p.size * p.geometry.g() / p.geometry.g_slope());
+    high = std::max(high, p.size * p.geometry.g() / p.geometry.g_slope());
+  }
+  for (int k = 0; k <= 40; ++k) {
+    const double brittleness = 0.5 * low * std::pow(4.0 * high / low, k / 40.0);
+    const double stress = std::sqrt(e.plane_modulus * e.law.energy / (shape.g_slope() * (e.law.length + brittleness)));
+    law.push_back(shown(shape, brittleness * shape.g_slope() / shape.g(), stress));
+  }
+  for (std::size_t k = 0; k < e.curve.size.size(); ++k) {
+    model_curve.push_back(shown(shape, e.curve.size[k], e.curve.model_stress[k]));
+  }
+  std::vector<Series> series = {{"size-effect law", lines(predicted_colour, 2.2, 2), law}};
+  if (model_curve.empty()) {
+    series.push_back({"cohesive model", points(fit_colour, 6, 1.3), model});
+  } else {
+    series.push_back({"cohesive model", lines(fit_colour, 2.2), model_curve});
+  }
+  series.push_back({"measured", points(data_colour, 7, 0.8), measured});
+  Picture picture(size_effect_picture_name(set), 760, 560);
+  Panel panel;
+  panel.title = "Size effect: " + io::gnuplot_plain(set.name);
+  panel.x_label = e.similar ? "Size D (mm)" : "Brittle size D g/g' (mm)";
+  panel.y_label = e.similar ? "Nominal stress P/(t D) (MPa)" : "P (g')^{1/2}/(t D) (MPa)";
+  panel.series = series;
+  panel.log_x = panel.log_y = true;
+  const auto range = [&](double Point::*which) {
+    double least = INFINITY, most = 0.0;
+    for (const Series& s : series) {
+      for (const Point& p : s.points) {
+        least = std::min(least, p.*which);
+        most = std::max(most, p.*which);
+      }
+    }
+    return Point{0.92 * least, 1.08 * most};
+  };
+  panel.x = range(&Point::first);
+  panel.y = range(&Point::second);
+  panel.before = "set format '%g'\nset xtics (" + decade_tics(panel.x) + ")\nset ytics (" + decade_tics(panel.y) + ")";
+  picture.panel(panel, {0.125, 0.97, 0.2, 0.92});
+  picture.legend(series, {0.1, 0.97, 0.01, 0.07}, 3);
+  return picture;
+}
+
 Picture draw_residuals(const Calibration& all) {
   struct One {
     const DataSet* set;
@@ -327,11 +396,16 @@ Picture draw_correlation(const Calibration& all) {
 
 std::string data_picture_name(const DataSet& set) { return "data_" + driver::folder_name(set.name); }
 
+std::string size_effect_picture_name(const DataSet& set) { return "size_effect_" + driver::folder_name(set.name); }
+
 std::string profile_picture_name(const std::string& parameter) { return "profile_" + driver::folder_name(parameter); }
 
 std::vector<std::string> picture_names(const Specification& spec) {
   std::vector<std::string> names;
   for (const DataSet& set : spec.data) names.push_back(data_picture_name(set));
+  for (const DataSet& set : spec.data) {
+    if (std::holds_alternative<PeakLoadTest>(set.test)) names.push_back(size_effect_picture_name(set));
+  }
   for (const std::string& p : spec.profiles) names.push_back(profile_picture_name(p));
   names.emplace_back(residuals_picture);
   names.emplace_back(correlation_picture);
@@ -344,6 +418,7 @@ std::vector<Picture> draw_pictures(const Calibration& all) {
   for (const Comparison& c : all.comparisons) {
     const DataSet& set = all.specification.data[c.data_set];
     list.push_back(set.is_curve() ? curve_picture(all, c) : values_picture(all, c));
+    if (c.size_effect && c.size_effect->law.ok()) list.push_back(draw_size_effect(set, *c.size_effect));
     any_residuals = any_residuals || (set.role == Role::fit && c.ok());
   }
   if (any_residuals) list.push_back(draw_residuals(all));

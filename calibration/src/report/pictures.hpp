@@ -11,6 +11,7 @@ namespace fpz::calibration::detail {
 
 /// File names without ending. Pictures that a calibration may have, whether or not it has the numbers for them.
 [[nodiscard]] std::string data_picture_name(const DataSet& set);
+[[nodiscard]] std::string size_effect_picture_name(const DataSet& set);
 [[nodiscard]] std::string profile_picture_name(const std::string& parameter);
 inline constexpr const char* residuals_picture = "residuals";
 inline constexpr const char* correlation_picture = "correlation";

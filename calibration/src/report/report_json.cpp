@@ -66,6 +66,40 @@ Json fixed_json(const Calibration& all) {
   return fixed;
 }
 
+Json law_json(const SizeEffectLaw& law) {
+  if (!law.ok()) return {{"failure", law.failure}};
+  return {{"failure", nullptr},
+          {"G_f", law.energy},
+          {"G_f_standard_error", law.energy_error},
+          {"c_f", law.length},
+          {"c_f_standard_error", law.length_error},
+          {"correlation", law.correlation},
+          {"load", list(law.load)}};
+}
+
+Json size_effect_json(const SizeEffect& e) {
+  Json points = Json::array();
+  for (const SizeEffectPoint& p : e.points) {
+    points.push_back({{"size", p.size},
+                      {"k", p.geometry.k},
+                      {"k_slope", p.geometry.slope},
+                      {"k_from", p.geometry.source},
+                      {"nominal_stress", p.stress},
+                      {"model_nominal_stress", p.model_stress},
+                      {"apparent_toughness", p.toughness},
+                      {"model_apparent_toughness", p.model_toughness}});
+  }
+  return {{"plane_modulus", e.plane_modulus},
+          {"toughness", e.toughness},
+          {"total_energy", e.total_energy},
+          {"initial_energy", e.initial_energy},
+          {"similar", e.similar},
+          {"law", law_json(e.law)},
+          {"law_of_model", law_json(e.of_model)},
+          {"points", points},
+          {"curve", {{"size", e.curve.size}, {"model_nominal_stress", e.curve.model_stress}}}};
+}
+
 Json data_set_json(const Calibration& all, const Comparison& c, const DataSetResult* result) {
   const DataSet& set = all.specification.data[c.data_set];
   Json j = {{"name", set.name},
@@ -90,6 +124,7 @@ Json data_set_json(const Calibration& all, const Comparison& c, const DataSetRes
   j["predicted_peak"] = c.predicted_peak;
   j["peak_error"] = c.peak_error;
   j["rms_over_peak"] = c.rms_over_peak;
+  if (c.size_effect) j["size_effect"] = size_effect_json(*c.size_effect);
   if (result == nullptr) return j;
   j["standardised"] = list(result->standardised);
   j["noise_factor"] = result->noise_factor;

@@ -5,6 +5,7 @@
 #include "display.hpp"
 #include "fpz/calibration/report.hpp"
 #include "pictures.hpp"
+#include "size_effect_section.hpp"
 
 namespace fpz::calibration {
 namespace {
@@ -193,6 +194,10 @@ class MarkdownReport {
     }
     if (!set.is_curve()) single_values(set, c);
     picture(data_picture_name(set), "data and fit: " + set.name);
+    out_ << '\n';
+    if (!c.size_effect) return;
+    out_ << size_effect_section(set, *c.size_effect);
+    if (c.size_effect->law.ok()) picture(size_effect_picture_name(set), "size effect: " + set.name);
     out_ << '\n';
   }
 

@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 
+#include "fpz/calibration/geometry_function.hpp"
 #include "fpz/calibration/peak_load.hpp"
 #include "notched_geometry.hpp"
 #include "set_keys.hpp"
@@ -10,11 +11,24 @@ namespace fpz::calibration::detail {
 namespace {
 
 constexpr double default_relative_deviation = 0.05;
-constexpr std::array<std::string_view, 4> point_keys = {"shape", "geometry", "load", "name"};
+constexpr std::array<std::string_view, 5> point_keys = {"shape", "geometry", "load", "toughness", "name"};
+
+/// The largest load (N) of a specimen of which only the toughness is handed down that a published formula made of it.
+std::optional<double> load_of_toughness(const Context& c, const Place& object, const NotchedSpecimen& specimen) {
+  const Place at(object, *object.value().find("toughness"));
+  const auto toughness = read_judged(c, at, typical::toughness);
+  if (!toughness) return std::nullopt;
+  const auto f = published_geometry_function(specimen);
+  if (!f) {
+    c.problem(at, "for this geometry the program knows no published formula of the toughness; give the \"load\"");
+    return std::nullopt;
+  }
+  return *toughness / stress_intensity(specimen, *f, 1.0);
+}
 
 void read_point(const SetContext& s, const Place& at, PeakLoadTest& test, std::vector<double>& loads, DataSet& out) {
   const Context& c = s.c;
-  if (!c.reader.object(at, "\"geometry\" and \"load\"")) return;
+  if (!c.reader.object(at, "\"geometry\" and \"load\" or \"toughness\"")) return;
   c.reader.known_keys(at, point_keys);
   SpecimenShape shape = SpecimenShape::beam;
   if (const JsonValue* v = at.value().find("shape")) {
@@ -23,9 +37,12 @@ void read_point(const SetContext& s, const Place& at, PeakLoadTest& test, std::v
   const std::size_t before = c.reader.problems().size();
   PeakLoadSpecimen point;
   point.specimen = read_geometry(s, at, shape);
-  const JsonValue* load = c.reader.required(at, "load");
-  if (load == nullptr || c.reader.problems().size() != before) return;
-  const auto value = read_judged(c, Place(at, *load), typical_load(point.specimen));
+  const bool by_toughness = at.value().find("toughness") != nullptr;
+  const JsonValue* load = by_toughness ? at.value().find("load") : c.reader.required(at, "load");
+  if (by_toughness && load != nullptr) c.problem(at, "has \"load\" and \"toughness\"; give one of them");
+  if (c.reader.problems().size() != before) return;
+  const auto value = by_toughness ? load_of_toughness(c, at, point.specimen)
+                                  : read_judged(c, Place(at, *load), typical_load(point.specimen));
   if (!value) return;
   std::string label = "specimen " + std::to_string(test.specimens.size() + 1);
   if (const JsonValue* name = at.value().find("name")) label = c.reader.text(Place(at, *name), 100).value_or(label);

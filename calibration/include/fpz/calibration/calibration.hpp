@@ -9,6 +9,7 @@
 
 #include "fpz/calibration/fit.hpp"
 #include "fpz/calibration/fracture_energy.hpp"
+#include "fpz/calibration/size_effect.hpp"
 #include "fpz/calibration/specification.hpp"
 
 namespace fpz::calibration {
@@ -40,9 +41,10 @@ struct Comparison {
   std::optional<SmoothCurve> smooth;  ///< where the kind of test allows it
   double measured_peak = 0.0;         ///< largest measured value
   double predicted_peak = 0.0;
-  double peak_error = 0.0;     ///< relative
-  double rms_over_peak = 0.0;  ///< root mean square of the residuals over the largest measured value
-  std::string failure;         ///< why there is no prediction; empty when there is one
+  double peak_error = 0.0;                ///< relative
+  double rms_over_peak = 0.0;             ///< root mean square of the residuals over the largest measured value
+  std::optional<SizeEffect> size_effect;  ///< of largest loads of notched specimens
+  std::string failure;                    ///< why there is no prediction; empty when there is one
 
   [[nodiscard]] bool ok() const { return failure.empty(); }
 };

@@ -76,6 +76,12 @@ template <class Test>
   return std::nullopt;
 }
 
+/// The specimens whose largest loads the values are; none where the kind is another.
+template <class Test>
+[[nodiscard]] std::vector<NotchedSpecimen> peak_specimens(const Test& /*test*/) {
+  return {};
+}
+
 /// What the kind assumes that the model would not do with these parameters; empty when there is nothing to say.
 template <class Test>
 [[nodiscard]] std::string model_warning(const Test& /*test*/, const Parameters& /*parameters*/) {

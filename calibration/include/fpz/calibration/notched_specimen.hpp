@@ -69,6 +69,13 @@ struct NotchedSpecimen {
   [[nodiscard]] bool operator==(const NotchedSpecimen&) const = default;
 };
 
+/// The lengths that similar specimens have in proportion.
+inline constexpr double NotchedSpecimen::*in_plane_lengths[] = {
+    &NotchedSpecimen::length,       &NotchedSpecimen::depth,
+    &NotchedSpecimen::radius,       &NotchedSpecimen::span,
+    &NotchedSpecimen::load_span,    &NotchedSpecimen::notch,
+    &NotchedSpecimen::roller_width, &NotchedSpecimen::clip_gauge_distance};
+
 /// Everything wrong with a geometry, in one pass.
 [[nodiscard]] Validation validate(const NotchedSpecimen& specimen);
 

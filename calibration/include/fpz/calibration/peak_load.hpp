@@ -24,4 +24,7 @@ struct PeakLoadTest {
 /// back or not. Exact derivatives.
 [[nodiscard]] Prediction predict(const PeakLoadTest& test, const Parameters& parameters, bool derivatives);
 
+/// The specimens, for readings of their largest loads other than the cohesive model's.
+[[nodiscard]] std::vector<NotchedSpecimen> peak_specimens(const PeakLoadTest& test);
+
 }  // namespace fpz::calibration
