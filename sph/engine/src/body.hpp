@@ -27,6 +27,8 @@ class Body {
   [[nodiscard]] virtual Outcome advance() = 0;
   /// Forces at n, velocities to n + 1/2; `view` has the step of this kick.
   virtual void force(const View<Dim>& view) = 0;
+  /// Stores strains, stresses and rotations of n where the last step has not.
+  virtual void show() {}
   /// Forces of this step besides those that force() sums: whether there are any; adds them to outer_force.
   [[nodiscard]] virtual bool pushes() const { return false; }
   virtual void push() {}

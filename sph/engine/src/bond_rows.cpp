@@ -173,8 +173,7 @@ template <class F>
 void BondRows<Dim>::change(std::size_t i, F&& f) {
   add_half_way(i, 0.5);
   f();
-  const Particles<Dim>& p = run_.particles;
-  set_flux(i, {p.stress[0][i], p.stress[1][i], p.stress[2][i]});
+  set_flux(i, run_.stress_at(i));
   add_half_way(i, -0.5);
 }
 
@@ -182,7 +181,8 @@ template <int Dim>
 void BondRows<Dim>::set_flux(std::size_t i, const Symmetric& stress) {
   Particles<Dim>& p = run_.particles;
   const Full l = {p.correction[0][i], p.correction[2][i], p.correction[3][i], p.correction[1][i]};
-  const Full t = flux_of(p.rotation[0][i], p.rotation[1][i], stress, l);
+  const Stretch now = run_.stretch(i);
+  const Full t = flux_of(now.cosine, now.sine, stress, l);
   p.flux[0][i] = t.xx;
   p.flux[1][i] = t.xy;
   p.flux[2][i] = t.yx;

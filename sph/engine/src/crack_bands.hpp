@@ -82,7 +82,7 @@ class CrackBands {
   void change_length(std::size_t i, double length);
 
   RunData<Dim>& run_;
-  NeighbourLists lists_;             ///< the windows, made with the first crack
+  NeighbourLists lists_;                ///< the windows, made with the first crack
   std::vector<std::size_t> window_of_;  ///< of each particle: its place among them
   std::vector<Window> windows_;
   Fields<tensor_size<Dim>> shift_;   ///< saved

@@ -44,7 +44,7 @@ double CrackRows<Dim>::rotation_beside(std::size_t i) const {
   for (const int neighbour : rows_.neighbours(i)) {
     const auto j = static_cast<std::size_t>(neighbour);
     if (p.kind[j] == kind::cracked || !rows_.is_near(i, j)) continue;
-    sum += p.rotation[1][j];
+    sum += run_.stretch(j).sine;
     count += 1.0;
   }
   return count > 0.0 ? sum / count : 0.0;

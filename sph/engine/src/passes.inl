@@ -125,9 +125,65 @@ FPZ_LANE void gradient_control(const V& v, Index b) {
   }
 }
 
+/// F - I of the particles of a block.
+struct Gradients {
+  double xx[n], xy[n], yx[n], yy[n];
+};
+
+/// Stores what the gradients of block b make of its particles: rotation, strain, and stress where that is elastic.
+template <bool Several>
+FPZ_LANE void show(const V& v, Index b, const Gradients& g) {
+  FPZ_LANES {
+    const Index i = b * n + l;
+    const Stretch p = polar(g.xx[l], g.xy[l], g.yx[l], g.yy[l]);
+    v.rotation[0][i] = p.cosine;
+    v.rotation[1][i] = p.sine;
+    v.strain[0][i] = p.strain.xx;
+    v.strain[1][i] = p.strain.yy;
+    v.strain[2][i] = p.strain.xy;
+    const Symmetric s = elastic_stress_of<Several>(v, i, p.strain);
+    const bool take = stays_elastic<Several>(v, i, s);
+    v.stress[0][i] = take ? s.xx : v.stress[0][i];
+    v.stress[1][i] = take ? s.yy : v.stress[1][i];
+    v.stress[2][i] = take ? s.xy : v.stress[2][i];
+  }
+}
+
+FPZ_LANE Gradients gradients_of(const V& v, Index b) {
+  Gradients g;
+  FPZ_LANES {
+    const Index i = b * n + l;
+    g.xx[l] = v.gradient[0][i];
+    g.xy[l] = v.gradient[1][i];
+    g.yx[l] = v.gradient[2][i];
+    g.yy[l] = v.gradient[3][i];
+  }
+  return g;
+}
+
+template <bool Several>
+void show_reference(const V& view, Index first, Index last) {
+  const V v = view;
+  for (Index b = first; b < last; ++b) show<Several>(v, b, gradients_of(v, b));
+}
+
+/// For the library, which starts from the stresses at n: those that were not stored then, from the gradients that are
+/// still those of n.
+template <bool Several>
+FPZ_LANE void show_before(const V& v, Index b) {
+  double stress[3][n];
+  for (int l = 0; l < n; ++l) {
+    for (int c = 0; c < 3; ++c) stress[c][l] = v.stress[c][b * n + l];
+  }
+  show<Several>(v, b, gradients_of(v, b));
+  for (int l = 0; l < n; ++l) {
+    for (int c = 0; c < 3 && v.flagged[b * n + l]; ++c) v.stress[c][b * n + l] = stress[c][l];
+  }
+}
+
 /// eq 31 and eq 21 in the undeformed body: positions at n + 1; velocity gradient (corrected, eq 17) -> F, its rotation
 /// and stretch, elastic stress (in place of eq 24, eq 27 and eq 30) and flux of the force; flags the particles that the
-/// library must update.
+/// library must update. Lean: rotation, strain and stress are stored only where the library needs them.
 template <bool Several>
 void strain_reference(const V& view, Index first, Index last) {
   const V v = view;
@@ -136,6 +192,7 @@ void strain_reference(const V& view, Index first, Index last) {
     double xx[n], xy[n], yx[n], yy[n];
     difference_sums(v.bonds, b, v.velocity, xx, xy, yx, yy);
     double raised[n];
+    Gradients g;
     FPZ_LANES {
       const Index i = o + l;
       v.position[0][i] += v.step * v.velocity[0][i];
@@ -146,21 +203,13 @@ void strain_reference(const V& view, Index first, Index last) {
       const double bxy = v.gradient[1][i] + scale * (xx[l] * c.xy + xy[l] * c.yy);
       const double byx = v.gradient[2][i] + scale * (yx[l] * c.xx + yy[l] * c.yx);
       const double byy = v.gradient[3][i] + scale * (yx[l] * c.xy + yy[l] * c.yy);
-      v.gradient[0][i] = bxx;
-      v.gradient[1][i] = bxy;
-      v.gradient[2][i] = byx;
-      v.gradient[3][i] = byy;
+      g.xx[l] = bxx;
+      g.xy[l] = bxy;
+      g.yx[l] = byx;
+      g.yy[l] = byy;
       const Stretch p = polar(bxx, bxy, byx, byy);
-      v.rotation[0][i] = p.cosine;
-      v.rotation[1][i] = p.sine;
-      v.strain[0][i] = p.strain.xx;
-      v.strain[1][i] = p.strain.yy;
-      v.strain[2][i] = p.strain.xy;
       const Symmetric s = elastic_stress_of<Several>(v, i, p.strain);
       const bool take = stays_elastic<Several>(v, i, s);
-      v.stress[0][i] = take ? s.xx : v.stress[0][i];
-      v.stress[1][i] = take ? s.yy : v.stress[1][i];
-      v.stress[2][i] = take ? s.xy : v.stress[2][i];
       const Full t = flux_of(p.cosine, p.sine, s, c);
       v.flux[0][i] = t.xx;
       v.flux[1][i] = t.xy;
@@ -168,6 +217,15 @@ void strain_reference(const V& view, Index first, Index last) {
       v.flux[3][i] = t.yy;
       raised[l] = take ? 0.0 : 1.0;
     }
+    const bool any = lane_sum(raised) > 0.0;
+    if (v.lean && any) show_before<Several>(v, b);
+    FPZ_LANES {
+      v.gradient[0][o + l] = g.xx[l];
+      v.gradient[1][o + l] = g.xy[l];
+      v.gradient[2][o + l] = g.yx[l];
+      v.gradient[3][o + l] = g.yy[l];
+    }
+    if (!v.lean || any) show<Several>(v, b, g);
     for (int l = 0; l < n; ++l) v.flagged[o + l] = raised[l] != 0.0;
     if (v.controlled) gradient_control(v, b);
   }
@@ -423,8 +481,12 @@ void force_updated(const V& view, Index first, Index last) {
 }
 
 template <Kernel K, bool PaperMomentum, bool Several>
-constexpr Passes<2> passes = {strain_reference<Several>, force_reference, drift_updated,
-                              strain_updated<K, PaperMomentum, Several>, force_updated<K, PaperMomentum>};
+constexpr Passes<2> passes = {strain_reference<Several>,
+                              show_reference<Several>,
+                              force_reference,
+                              drift_updated,
+                              strain_updated<K, PaperMomentum, Several>,
+                              force_updated<K, PaperMomentum>};
 
 template <bool Several>
 const Passes<2>& choose(int kernel, int momentum) {

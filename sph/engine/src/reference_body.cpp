@@ -39,9 +39,11 @@ void ReferenceBody<Dim>::start() {
 
 template <int Dim>
 Outcome ReferenceBody<Dim>::advance() {
-  const RunData<Dim>& run = this->run_;
+  RunData<Dim>& run = this->run_;
+  View<Dim> view = run.view;
+  view.lean = run.hidden = !run.watched;
   const Outcome outcome =
-      this->strain_with([&run](Index first, Index last) { run.passes->strain_reference(run.view, first, last); });
+      this->strain_with([&](Index first, Index last) { run.passes->strain_reference(view, first, last); });
   const Options<Dim>& o = run.setup.options;
   const bool follows = bands_ && o.momentum == MomentumForm::adjoint;
   if (bands_ && run.steps % band_interval == 0) bands_->follow();
@@ -61,6 +63,14 @@ template <int Dim>
 void ReferenceBody<Dim>::force(const View<Dim>& view) {
   const auto pass = this->run_.passes->force_reference;
   this->run_.for_chunks([&](Index first, Index last) { pass(view, first, last); });
+}
+
+template <int Dim>
+void ReferenceBody<Dim>::show() {
+  RunData<Dim>& run = this->run_;
+  if (!run.hidden) return;
+  run.for_chunks([&](Index first, Index last) { run.passes->show_reference(run.view, first, last); });
+  run.hidden = false;
 }
 
 template <int Dim>

@@ -19,6 +19,7 @@ class ReferenceBody final : public Body<Dim> {
   void start() override;
   [[nodiscard]] Outcome advance() override;
   void force(const View<Dim>& view) override;
+  void show() override;
   [[nodiscard]] bool pushes() const override { return rows_.has_half_way(); }
   void push() override;
   void save(Writer& archive) const override;

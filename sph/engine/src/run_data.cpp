@@ -1,6 +1,7 @@
 // The start of a run: particles in their order, constants, the choice of the compiled loops.
 #include "run_data.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "fpz/threads.hpp"
@@ -40,6 +41,7 @@ RunData<Dim>::RunData(const RunSetup<Dim>& s, double time_step)
   set_initial_stress();
   fields(*this, Point<Dim>{view});
   set_constants();
+  std::fill_n(flagged.begin(), particles.count, 1);  // the stresses are those that are stored
 }
 
 template <int Dim>

@@ -6,6 +6,7 @@
 #include "fpz/sph/simulation.hpp"
 #include "loading_clock.hpp"
 #include "particle_materials.hpp"
+#include "plane.hpp"
 #include "team.hpp"
 #include "work_ledger.hpp"
 
@@ -31,6 +32,8 @@ struct RunData {
   long long steps = 0;
   bool started = false;  ///< the velocities are half a step ahead
   LoadingClock clock;    ///< of drives and loads
+  bool watched = false;  ///< someone may look at all fields at any time: every step stores them
+  bool hidden = false;   ///< reference: rotation, strain and stress of elastic particles are not those of n
 
   Particles<Dim> particles;
   std::vector<std::size_t> slot_of;
@@ -73,6 +76,19 @@ struct RunData {
     visit(FieldInfo{"flagged", Extent::particle, Keep::passing}, self.flagged, &V::flagged);
     visit(FieldInfo{"bad", Extent::block, Keep::passing}, self.bad, &V::bad);
     WorkLedger<Dim>::fields(self.ledger, visit);
+  }
+
+  /// Reference: rotation and strain of particle i at n, stored or not.
+  [[nodiscard]] Stretch stretch(std::size_t i) const {
+    const auto& g = particles.gradient;
+    return polar(g[0][i], g[1][i], g[2][i], g[3][i]);
+  }
+  /// Reference: stress of particle i at n, Pa, in the frame that turns with it; stored or not.
+  [[nodiscard]] Symmetric stress_at(std::size_t i) const {
+    const auto& s = particles.stress;
+    if (!hidden || flagged[i] != 0) return {s[0][i], s[1][i], s[2][i]};
+    const Elasticity<double>& bulk = materials.bulk(i);
+    return elastic_stress(bulk.lambda, bulk.mu, stretch(i).strain);
   }
 
   /// Makes the list `cracked` anew; whenever some have cracked.

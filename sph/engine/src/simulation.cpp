@@ -99,7 +99,21 @@ long long Simulation<Dim>::loading_steps() const {
 }
 template <int Dim>
 const Particles<Dim>& Simulation<Dim>::particles() const {
+  engine_->run.watched = true;
+  return particles_now();
+}
+template <int Dim>
+const Particles<Dim>& Simulation<Dim>::particles_now() const {
+  engine_->body->show();
   return engine_->run.particles;
+}
+template <int Dim>
+const Particles<Dim>& Simulation<Dim>::motions_now() const {
+  return engine_->run.particles;
+}
+template <int Dim>
+std::size_t Simulation<Dim>::count() const {
+  return engine_->run.particles.count;
 }
 template <int Dim>
 std::size_t Simulation<Dim>::slot(std::size_t id) const {
@@ -162,6 +176,7 @@ void Simulation<Dim>::set_damping(double part) {
 
 template <int Dim>
 Energies Simulation<Dim>::energies() const {
+  engine_->body->show();
   return engine_->energies();
 }
 template <int Dim>
@@ -176,7 +191,7 @@ long long Simulation<Dim>::neighbour_builds() const {
 template <int Dim>
 std::size_t Simulation<Dim>::cracked() const {
   std::size_t n = 0;
-  for (const double k : particles().kind) n += k == kind::cracked ? 1 : 0;
+  for (const double k : engine_->run.particles.kind) n += k == kind::cracked ? 1 : 0;
   return n;
 }
 
@@ -188,12 +203,13 @@ bool Simulation<Dim>::cracked_on_weak_plane(std::size_t slot) const {
 template <int Dim>
 std::size_t Simulation<Dim>::failing_out_of_plane() const {
   const detail::RunData<Dim>& run = engine_->run;
+  const Particles<Dim>& p = particles_now();
   std::size_t n = 0;
-  for (std::size_t i = 0; i < particles().count; ++i) {
-    if (particles().kind[i] != kind::intact) continue;
-    const Material<double> m = run.materials.material(i, particles().length[i]);
+  for (std::size_t i = 0; i < p.count; ++i) {
+    if (p.kind[i] != kind::intact) continue;
+    const Material<double> m = run.materials.material(i, p.length[i]);
     const double nothing = 1e-6 * m.law.surface.cohesion;  // those about to crack are on the surface
-    n += failure_value_in_space(m, particles().stress_of(i)) > nothing ? 1U : 0U;
+    n += failure_value_in_space(m, p.stress_of(i)) > nothing ? 1U : 0U;
   }
   return n;
 }
@@ -212,7 +228,7 @@ template <int Dim>
 double Simulation<Dim>::mean_neighbours() const {
   std::size_t n = 0;
   for (const std::vector<int>& list : engine_->body->lists()) n += list.size();
-  return static_cast<double>(n) / static_cast<double>(particles().count);
+  return static_cast<double>(n) / static_cast<double>(count());
 }
 
 template double courant_step<2>(const RunSetup<2>&);

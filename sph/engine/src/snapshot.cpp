@@ -119,6 +119,7 @@ void Engine<Dim>::load(Reader& archive) {
   transfer_run(archive, run);
   run.materials.load(archive);
   RunData<Dim>::fields(run, Spoil{run.particles.count});
+  run.hidden = false;
   run.find_cracked();
   body->load(archive);
   for (const auto& boundary : boundaries) boundary->load(archive);
@@ -135,6 +136,7 @@ template <int Dim>
 std::vector<unsigned char> Simulation<Dim>::snapshot() const {
   Writer w(magic);
   w(fingerprint(engine_->run.setup));
+  engine_->body->show();
   engine_->save(w);
   return std::move(w).sealed();
 }

@@ -86,6 +86,7 @@ struct View {
   double rest_density = 0.0, sound_speed = 0.0, viscosity_alpha = 0.0, viscosity_beta = 0.0;
   double artificial_stress = 0.0;
   bool controlled = false;  // the zero-energy control is on
+  bool lean = false;        // reference: rotation, strain and stress only where the library needs them
 };
 
 /// Number of a block, or of an entry of the arrays above.
@@ -96,6 +97,7 @@ template <int Dim>
 struct Passes {
   using Pass = void (*)(const View<Dim>&, Index first, Index last);
   Pass strain_reference;  ///< positions, velocity gradient -> F, rotation, strain, elastic stress, flux, onset flags
+  Pass show_reference;    ///< F -> rotation, strain, elastic stress, as strain_reference stores them unless it is lean
   Pass force_reference;   ///< internal force with that of the zero-energy control, damping, kick
   Pass drift_updated;     ///< position += step velocity; predicted velocity of the full step
   Pass strain_updated;    ///< kernel, L_i, velocity gradient -> density, rotated stress, flux, onset flags

@@ -17,7 +17,7 @@ Gauge read(const InputReader& r, const Place& gauge, const Place& value, const S
 }
 
 Point mean_displacement(const sph::Simulation<2>& run, const std::vector<std::size_t>& ids) {
-  const sph::Particles<2>& p = run.particles();
+  const sph::Particles<2>& p = run.motions_now();
   Point sum = Point::Zero();
   for (const std::size_t id : ids) {
     const std::size_t i = run.slot(id);

@@ -44,7 +44,7 @@ std::vector<std::size_t> particles(const std::vector<ParticleWeight>& weights) {
 }
 
 double displacement(const sph::Simulation<2>& run, const std::vector<ParticleWeight>& weights, const Point& along) {
-  const sph::Particles<2>& p = run.particles();
+  const sph::Particles<2>& p = run.motions_now();
   double sum = 0.0;
   for (const ParticleWeight& w : weights) {
     const std::size_t i = run.slot(w.particle);

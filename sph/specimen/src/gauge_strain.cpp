@@ -59,7 +59,7 @@ std::vector<Slope> slopes_of(const Site& site, std::string_view key, const Gauge
 
 /// F of the undeformed body.
 Matrix deformation_gradient(const sph::Simulation<2>& run, const std::vector<Slope>& slopes) {
-  const sph::Particles<2>& p = run.particles();
+  const sph::Particles<2>& p = run.motions_now();
   Matrix f = Matrix::Identity();
   for (const Slope& s : slopes) {
     const std::size_t i = run.slot(s.particle);

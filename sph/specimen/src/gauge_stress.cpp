@@ -22,7 +22,7 @@ BoundGauge bind(const StressGauge& gauge, const GaugeBinding& to) {
   const auto component = static_cast<std::size_t>(gauge.component);
   const auto value = [of, component](const sph::Simulation<2>& run, double /*thickness*/) {
     double sum = 0.0;
-    for (const std::size_t id : of) sum += run.particles().stress[component][run.slot(id)];
+    for (const std::size_t id : of) sum += run.particles_now().stress[component][run.slot(id)];
     return sum / static_cast<double>(of.size());
   };
   return {value, {of}};

@@ -6,7 +6,7 @@ namespace fpz::specimen {
 namespace {
 
 double largest_damage(const sph::Simulation<2>& run) {
-  const sph::Particles<2>& p = run.particles();
+  const sph::Particles<2>& p = run.motions_now();
   double largest = 0.0;
   for (std::size_t i = 0; i < p.count; ++i) {
     if (p.kind[i] == sph::kind::cracked) largest = std::max(largest, 1.0 - p.point[i].crack.integrity);

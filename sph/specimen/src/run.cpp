@@ -190,7 +190,7 @@ class Runner {
 
   /// Of the faces of each notch, m.
   [[nodiscard]] std::vector<double> overlaps() const {
-    const sph::Particles<2>& p = run_.particles();
+    const sph::Particles<2>& p = run_.motions_now();
     std::vector<Point> start, displacement;
     for (std::size_t i = 0; i < p.count; ++i) {
       start.emplace_back(p.start[0][i], p.start[1][i]);
@@ -217,7 +217,7 @@ class Runner {
   [[nodiscard]] double expected_bytes() const {
     const double rows = scene_.output.history_rows + 2.0;
     const double history = 20.0 * static_cast<double>(recorder_.history().columns.size()) * rows;
-    return frame_bytes(run_.particles().count) * frames_.expected() + 3.0 * history +
+    return frame_bytes(run_.count()) * frames_.expected() + 3.0 * history +
            2.0 * static_cast<double>(run_.snapshot().size()) + 2e7;
   }
 

@@ -56,14 +56,14 @@ sph::Arrangement<2> place(const Scene& scene) {
 Mat<double, 2, 2> to_space(const sph::Simulation<2>& run, std::size_t i, bool updated) {
   Mat<double, 2, 2> q = Mat<double, 2, 2>::Identity();
   if (updated) return q;
-  const sph::Particles<2>& p = run.particles();
+  const sph::Particles<2>& p = run.particles_now();
   q << p.rotation[0][i], -p.rotation[1][i], p.rotation[1][i], p.rotation[0][i];
   return q;
 }
 
 Mat<double, 2, 2> stress_in_space(const sph::Simulation<2>& run, std::size_t i, bool updated) {
   const Mat<double, 2, 2> q = to_space(run, i, updated);
-  return q * to_matrix<double, 2>(run.particles().stress_of(i)) * q.transpose();
+  return q * to_matrix<double, 2>(run.particles_now().stress_of(i)) * q.transpose();
 }
 
 /// Threads that pay off: below some thousand particles each, waiting for each other costs more than it gains.
@@ -200,7 +200,7 @@ Specimen make_specimen(const Scene& scene) {
 }
 
 double mean_fracture_energy(const sph::Simulation<2>& run, const Specimen& specimen) {
-  const sph::Particles<2>& p = run.particles();
+  const sph::Particles<2>& p = run.particles_now();
   const auto energy = [](const Parameters& m) { return m.tensile_strength * m.delta0; };
   const auto parameters = [&](std::size_t i) {
     const sph::RunSetup<2>& s = specimen.setup;
@@ -217,7 +217,7 @@ double mean_fracture_energy(const sph::Simulation<2>& run, const Specimen& speci
 }
 
 double largest_opening(const sph::Simulation<2>& run) {
-  const sph::Particles<2>& p = run.particles();
+  const sph::Particles<2>& p = run.particles_now();
   double most = std::nan("");
   for (std::size_t i = 0; i < p.count; ++i) {
     if (p.kind[i] == sph::kind::cracked) most = std::fmax(most, p.point[i].crack.jump.norm());
@@ -226,7 +226,7 @@ double largest_opening(const sph::Simulation<2>& run) {
 }
 
 std::vector<Spot> spots(const sph::Simulation<2>& run, const Specimen& specimen) {
-  const sph::Particles<2>& p = run.particles();
+  const sph::Particles<2>& p = run.particles_now();
   const sph::Arrangement<2>& a = specimen.setup.arrangement;
   std::vector<Spot> all;
   for (std::size_t id = 0; id < a.size(); ++id) {
@@ -243,7 +243,7 @@ std::vector<Spot> spots(const sph::Simulation<2>& run, const Specimen& specimen)
 }
 
 PointCloud frame_of(const sph::Simulation<2>& run, const Specimen& specimen) {
-  const sph::Particles<2>& p = run.particles();
+  const sph::Particles<2>& p = run.particles_now();
   const sph::Arrangement<2>& a = specimen.setup.arrangement;
   std::vector<Elasticity<double>> bulk;
   for (std::size_t k = 0; k < specimen.setup.materials.count(); ++k) {

@@ -89,7 +89,7 @@ Json materials_json(const Scene& scene, const sph::RunSetup<2>& setup) {
 }
 
 Json interfaces_json(const SummaryInput& in) {
-  const sph::Particles<2>& p = in.run.particles();
+  const sph::Particles<2>& p = in.run.particles_now();
   const std::vector<std::size_t> count = detail::interface_particles(in.scene, in.specimen.setup);
   std::vector<std::size_t> cracked(count.size(), 0);
   for (std::size_t i = 0; i < p.count; ++i) {
@@ -321,7 +321,7 @@ std::string report_of(const Findings& f) {
 std::string summary_text(const SummaryInput& in) {
   const History& h = in.result.history;
   const Findings& f = in.findings;
-  const sph::Particles<2>& p = in.run.particles();
+  const sph::Particles<2>& p = in.run.particles_now();
   Json j;
   j["scene"] = in.scene.name;
   j["version"] = FPZ_VERSION;

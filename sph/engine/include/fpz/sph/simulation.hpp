@@ -98,7 +98,16 @@ class Simulation {
   [[nodiscard]] double pace() const;
   /// Steps that it would have taken to the present loading_time() at pace 1; steps() at that pace.
   [[nodiscard]] long long loading_steps() const;
+  /// The particles: what is referred to follows the run from now on. Steps are slower after the first call, because
+  /// they store strains, stresses and rotations that nothing else needs.
   [[nodiscard]] const Particles<Dim>& particles() const;
+  /// The same until the next step, at no cost to it. After that strains, stresses and rotations of elastic particles
+  /// may be old: call again.
+  [[nodiscard]] const Particles<Dim>& particles_now() const;
+  /// The same without any strain, stress and rotation of elastic particles, which may be old: for who looks at motions
+  /// and cracks often.
+  [[nodiscard]] const Particles<Dim>& motions_now() const;
+  [[nodiscard]] std::size_t count() const;  ///< of particles
   /// Slot of a particle of the arrangement in the arrays of particles().
   [[nodiscard]] std::size_t slot(std::size_t id) const;
   /// Force that keeps a group on its motion, N (per metre of thickness in 2-D), from the momentum balance of its
