@@ -102,8 +102,7 @@ Estimate estimate(const Scene& scene, const Specimen& specimen, int threads) {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   e.memory = 1024.0 * static_cast<double>(usage.ru_maxrss);
-  e.disk =
-      frame_bytes(run.count()) * (scene.output.frames + 6.0) + static_cast<double>(run.snapshot().size());
+  e.disk = frame_bytes(run.count()) * (scene.output.frames + 6.0) + static_cast<double>(run.snapshot().size());
   return e;
 }
 
