@@ -154,6 +154,30 @@ double straying(const Run& run) {
   return most;
 }
 
+/// How far the peaks of a series are from finite elements and from one another.
+void scatter_of_peaks(std::ostream& out, const SweepRuns& sweep) {
+  std::vector<std::string> names;
+  for (const Run& run : sweep.runs) {
+    if (std::find(names.begin(), names.end(), run.series) == names.end()) names.push_back(run.series);
+  }
+  std::vector<Row> rows;
+  for (const std::string& name : names) {
+    const std::vector<const Run*> runs = sweep.of(name);
+    double sum = 0.0, squares = 0.0, low = INFINITY, high = -INFINITY;
+    for (const Run* run : runs) {
+      const double error = beam_errors(*run).peak;
+      sum += error, squares += error * error;
+      low = std::min(low, error), high = std::max(high, error);
+    }
+    const auto n = static_cast<double>(runs.size());
+    const double mean = sum / n;
+    rows.push_back({name, fixed(n, 0), deviation(low), deviation(high), deviation(mean),
+                    percent(n > 1.0 ? std::sqrt((squares - n * mean * mean) / (n - 1.0)) : NAN)});
+  }
+  out << "\nPeaks against finite elements, over all arrangements:\n";
+  write_table(out, {"method", "runs", "lowest", "highest", "mean", "standard deviation"}, rows);
+}
+
 void beam(std::ostream& out, const SweepRuns& sweep) {
   if (!write_state(out, sweep, "the beam on other arrangements")) return;
   out << "### Notched beam on any arrangement\n\nAgainst finite elements with pressures over the width of the rollers; "
@@ -164,6 +188,7 @@ void beam(std::ostream& out, const SweepRuns& sweep) {
     return Row{fixed(run.figure("peak_load"), 0), deviation(errors.peak), deviation(errors.work),
                fixed(1e3 * straying(run), 1)};
   });
+  scatter_of_peaks(out, sweep);
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace {
 
 struct SolverRun {
   const Run* run = nullptr;
-  double steps = 0.0;  ///< of all its runs, where it repeats them
+  double steps = 0.0;             ///< of all its runs, where it repeats them
   double peak = 0.0, work = 0.0;  ///< errors against the slowest run, relative
 
   [[nodiscard]] double worst() const { return std::max(std::abs(peak), std::abs(work)); }
@@ -28,7 +28,9 @@ double all_steps(const Run& run) {
 }
 
 double work_to_common_end(const io::Table& of, const io::Table& with) {
-  const auto end = [](const io::Table& t) { return *std::max_element(t.at("deflection").begin(), t.at("deflection").end()); };
+  const auto end = [](const io::Table& t) {
+    return *std::max_element(t.at("deflection").begin(), t.at("deflection").end());
+  };
   return work_until(std::min(end(of), end(with)), of.at("deflection"), of.at("load"));
 }
 
@@ -40,8 +42,8 @@ std::vector<SolverRun> compare(const SweepRuns& sweep) {
   for (const Run& run : sweep.runs) {
     const io::Table t = run.history();
     const double own = *std::max_element(t.at("load").begin(), t.at("load").end());
-    list.push_back({&run, all_steps(run), own / peak - 1.0,
-                    work_to_common_end(t, slow) / work_to_common_end(slow, t) - 1.0});
+    list.push_back(
+        {&run, all_steps(run), own / peak - 1.0, work_to_common_end(t, slow) / work_to_common_end(slow, t) - 1.0});
   }
   return list;
 }
@@ -88,14 +90,16 @@ void specimen_of(std::ostream& out, const SweepRuns& sweep, const std::string& n
 }  // namespace
 
 void write_solvers(std::ostream& out, const Results& r, const Gallery& gallery) {
-  out << "## 6. Solvers\n\nThe same test by every `\"solver\"` ([solvers.md](solvers.md)); the number after its name is "
+  out << "## 6. Solvers\n\nThe same test by every `\"solver\"` ([solvers.md](solvers.md)); the number after its name "
+         "is "
          "the pace, the part of kinetic energy, the number of equilibria, or the tolerance. Errors are those against "
          "the run at a quarter of the scene's speed, the work to the deflection that both reach. Steps are those of "
          "all runs where a solver repeats them.\n";
   std::vector<io::Panel> list;
   specimen_of(out, r.solver_beam, "Notched beam, 4 mm", list);
   specimen_of(out, r.solver_scb, "Semicircular specimen, 1.9 mm", list);
-  if (!list.empty()) out << "\n" << gallery.show(panels("solvers", list), "solvers", "Steps against error, all solvers");
+  if (!list.empty())
+    out << "\n" << gallery.show(panels("solvers", list), "solvers", "Steps against error, all solvers");
 }
 
 }  // namespace fpz::report

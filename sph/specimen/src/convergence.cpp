@@ -122,10 +122,12 @@ class Runs {
     if (!fs::exists(table_)) return;  // the first run was interrupted
     const io::Table t = io::read_csv(table_);
     for (std::size_t n = 0; n < t.at("pace").size(); ++n) {
-      runs_.push_back({t.at("pace")[n], std::llround(t.at("steps")[n]), t.at("wall_seconds")[n], t.at("failed")[n] > 0.0,
-                       t.at("peak_load")[n], t.at("change_of_peak")[n], t.at("change_of_work")[n]});
+      runs_.push_back({t.at("pace")[n], std::llround(t.at("steps")[n]), t.at("wall_seconds")[n],
+                       t.at("failed")[n] > 0.0, t.at("peak_load")[n], t.at("change_of_peak")[n],
+                       t.at("change_of_work")[n]});
     }
-    if (ended()) throw io::InputError(table_.string() + ": these runs have come to their end; there is nothing to resume");
+    if (ended())
+      throw io::InputError(table_.string() + ": these runs have come to their end; there is nothing to resume");
     if (runs_.empty()) return;
     const io::Table h = io::read_csv(history_of_run(request_.folder, runs_.size() - 1));
     last_.columns = {"deflection", "load"};

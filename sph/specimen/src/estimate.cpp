@@ -85,7 +85,9 @@ Estimate estimate(const Scene& scene, const Specimen& specimen, int threads) {
   sph::Simulation<2> run(own.setup);
   Estimate e;
   e.schedule = schedule_of(scene, run.time_step());
-  e.likely_steps = steps_to_deflection(scene, run.time_step());
+  const double pace = scene.solver.kind == Solver::Kind::dynamic ? scene.solver.pace : 1.0;
+  e.most_steps = std::llround(static_cast<double>(e.schedule.steps) / pace);
+  e.likely_steps = std::llround(static_cast<double>(steps_to_deflection(scene, run.time_step())) / pace);
   e.mean_neighbours = run.mean_neighbours();
   const auto step = [&] {
     if (const sph::Outcome o = run.step(); !o.ok())
@@ -115,8 +117,8 @@ std::string estimate_text(const Scene& scene, const Specimen& specimen, const Es
     << materials_text(scene, specimen) << slots_text(scene, specimen) << loads_text(scene, specimen)
     << "  time step         " << e.schedule.time_step << " s, row every " << e.schedule.row_every
     << " steps, frame every " << e.schedule.frame_every << "\n"
-    << "  steps             at most " << e.schedule.steps;
-  if (scene.stop.deflection && e.likely_steps < e.schedule.steps)
+    << "  steps             at most " << e.most_steps;
+  if (scene.stop.deflection && e.likely_steps < e.most_steps)
     s << ", about " << e.likely_steps << " to stop.deflection";
   s << "\n  speed             " << 1e-6 * count / e.step_seconds << " million particle-steps/s (uncracked)\n"
     << "  time              about " << e.step_seconds * static_cast<double>(e.likely_steps)
@@ -126,6 +128,12 @@ std::string estimate_text(const Scene& scene, const Specimen& specimen, const Es
     << "  gauges            ";
   for (const auto& [name, g] : specimen.gauges) s << name << " ";
   s << "\n";
+  if (scene.solver.kind == Solver::Kind::dynamic && scene.solver.pace != 1.0) {
+    s << "  solver            all speeds times " << scene.solver.pace << "\n";
+  } else if (scene.solver.kind != Solver::Kind::dynamic) {
+    s << "  solver            " << fpz::to_string(scene.solver.kind)
+      << ": steps and time above are those at the speeds of the scene\n";
+  }
   if (scene.options.damping > 0.0 || scene.options.mass_scale > 1.0) {
     s << "  note              damping " << scene.options.damping << ", mass_scale " << scene.options.mass_scale << "\n";
   }

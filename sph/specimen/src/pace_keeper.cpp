@@ -85,6 +85,7 @@ StepUse PaceKeeper::relax(sph::Simulation<2>& run) {
   constexpr int enough = looks_per_swing / 2;
   state_.quiet = look_at_energies(run) <= solver_.kinetic_part * state_.largest ? state_.quiet + 1 : 0;
   if (state_.quiet < enough && run.steps() < state_.rest_end) return {false, false};
+  if (state_.quiet < enough) ++state_.given_up;
   state_.resting = false;
   state_.target = run.loading_time() + increment_;
   run.set_pace(solver_.fastest);
@@ -100,6 +101,13 @@ void PaceKeeper::begin_rest(sph::Simulation<2>& run) {
   state_.rest_end = run.steps() + std::llround(longest_rest * swing_ / run.time_step());
   run.set_pace(0.0);
   run.set_damping(solver_.rest_damping);
+}
+
+std::string PaceKeeper::warning() const {
+  if (state_.given_up == 0) return {};
+  return std::to_string(state_.given_up) +
+         " rests of solver \"relaxation\" were given up before the body was at rest (kinetic_part): their rows are no "
+         "equilibria; the body breaks by itself there, or needs more rest_damping";
 }
 
 }  // namespace fpz::specimen::detail

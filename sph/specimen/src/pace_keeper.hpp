@@ -15,13 +15,14 @@ struct PaceState {
   int quiet = 0;           ///< relaxation: looks in a row that found it at rest
   double target = 0.0;     ///< relaxation: s of loading at which it rests next
   long long rest_end = 0;  ///< relaxation: step at which a rest is given up
+  int given_up = 0;        ///< relaxation: rests that were
 };
 
 template <class Archive, class S>
 void transfer(Archive& archive, S& state) requires std::same_as<std::remove_const_t<S>, PaceState> {
-  auto& [next, largest, kinetic, slope, resting, quiet, target, rest_end] = state;
+  auto& [next, largest, kinetic, slope, resting, quiet, target, rest_end, given_up] = state;
   archive(next), archive(largest), archive(kinetic), archive(slope);
-  archive(resting), archive(quiet), archive(target), archive(rest_end);
+  archive(resting), archive(quiet), archive(target), archive(rest_end), archive(given_up);
 }
 
 /// What a step is for the history.
@@ -38,6 +39,9 @@ class PaceKeeper {
   StepUse after_step(sph::Simulation<2>& run);
   /// Whether rows are where it says, and not at even distances of the loading.
   [[nodiscard]] bool makes_rows() const { return solver_.kind == Solver::Kind::relaxation; }
+
+  /// What is wrong with the equilibria; empty when nothing is.
+  [[nodiscard]] std::string warning() const;
 
   [[nodiscard]] const PaceState& state() const { return state_; }
   void restore(const PaceState& state) { state_ = state; }

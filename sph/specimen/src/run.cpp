@@ -172,7 +172,7 @@ class Runner {
     const double overlap = run_.overlap();
     const std::string closed = std::isnan(overlap) ? warning_of_closure(overlaps(), scene_.spacing)
                                                    : warning_of_overlap(overlap, scene_.spacing);
-    for (const std::string& w : {closed, warning_of_bifurcation(paths, scene_.spacing)}) {
+    for (const std::string& w : {closed, warning_of_bifurcation(paths, scene_.spacing), pace_.warning()}) {
       if (!w.empty()) result.warnings.push_back(w);
     }
     const std::string error = error_of_the_model(scene_, f);

@@ -99,9 +99,9 @@ TEST(Solver, RowsAndKineticEnergyFollowThePace) {
 }
 
 TEST(Solver, AServoKeepsItsRateInTheTimeOfTheLoading) {
-  const std::string servo =
-      R"("velocity": {"x": {"servo": "deflection", "rate": 0.01, "speed": 0.01, "ramp": 5e-4}})";
-  const RunResult r = run(pulled(servo, R"("solver": {"type": "dynamic", "pace": 3}, "stop": {"time": 4e-3})"), "servo_3");
+  const std::string servo = R"("velocity": {"x": {"servo": "deflection", "rate": 0.01, "speed": 0.01, "ramp": 5e-4}})";
+  const RunResult r =
+      run(pulled(servo, R"("solver": {"type": "dynamic", "pace": 3}, "stop": {"time": 4e-3})"), "servo_3");
   ASSERT_EQ(r.ending, Ending::finished) << r.reason;
   const double grown = value_at(r.history, "deflection", 3.9e-3) - value_at(r.history, "deflection", 2e-3);
   EXPECT_NEAR(grown / 1.9e-3, 0.01, 0.03 * 0.01);
@@ -126,8 +126,9 @@ TEST(Solver, RelaxationRestsInEquilibria) {
 TEST(Solver, AdaptiveGoesAsFastAsItsKineticEnergyAllows) {
   const std::string stop = R"("stop": {"time": 0.02})";
   const std::string slow_drive = R"("velocity": {"x": {"speed": 0.001, "ramp": 1e-3}})";
-  const RunResult r = run(
-      pulled(slow_drive, R"("solver": {"type": "adaptive", "kinetic_part": 1e-3, "fastest": 100}, )" + stop), "adaptive");
+  const RunResult r =
+      run(pulled(slow_drive, R"("solver": {"type": "adaptive", "kinetic_part": 1e-3, "fastest": 100}, )" + stop),
+          "adaptive");
   const RunResult plain = run(pulled(slow_drive, R"("stop": {"time": 5e-3})"), "not_adaptive");
   ASSERT_EQ(r.ending, Ending::finished) << r.reason;
   EXPECT_LT(r.history.last("step"), 0.5 * 4.0 * plain.history.last("step"));
