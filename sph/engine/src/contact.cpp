@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 namespace fpz::sph::detail {
 
@@ -23,7 +25,8 @@ void for_each_particle(const ContactPoint<Dim>& point, F&& f) {
 }  // namespace
 
 template <int Dim>
-Contact<Dim>::Contact(RunData<Dim>& run, const Boundaries<Dim>& boundaries) : run_(run), points_(points_of_cuts(run)) {
+Contact<Dim>::Contact(RunData<Dim>& run, const Boundaries<Dim>& boundaries, const NeighbourLists& lists)
+    : run_(run), lists_(lists), faces_(run, lists), points_(points_of_cuts(run)) {
   find_prescribed(boundaries);
   find_members();
 }
@@ -56,10 +59,12 @@ void Contact<Dim>::find_members() {
   for (std::size_t k = 0; k < points_.size(); ++k) add_shares(points_[k], slots, places_[k]);
 }
 
-/// A face turns as the mean of its sides does; single particles do not show that.
+/// A face turns as the mean of its sides does; single particles do not show that, nor a side without slopes.
 template <int Dim>
 void Contact<Dim>::add_shares(const ContactPoint<Dim>& point, const std::vector<std::size_t>& slots, Place& place) {
-  const auto turns = [](const FaceSide& side) { return side.particle.size() > 1 ? 1.0 : 0.0; };
+  const auto turns = [](const FaceSide& side) {
+    return std::any_of(side.slope.begin(), side.slope.end(), [](double s) { return s != 0.0; }) ? 1.0 : 0.0;
+  };
   const double sides = std::max(1.0, turns(point.side[0]) + turns(point.side[1]));
   for (std::size_t s = 0; s < 2; ++s) {
     const FaceSide& side = point.side[s];
@@ -72,28 +77,24 @@ void Contact<Dim>::add_shares(const ContactPoint<Dim>& point, const std::vector<
 }
 
 template <int Dim>
-void Contact<Dim>::add(const std::vector<ReleasedBond<Dim>>& released, const NeighbourLists& lists) {
-  refit(released, lists);
+void Contact<Dim>::add(const std::vector<ReleasedBond<Dim>>& released) {
+  faces_.refit(released);
+  refit(released);
   const std::size_t first = points_.size();
   std::vector<bool> pressed;
   for (const ReleasedBond<Dim>& bond : released) {
-    auto point = point_of_bond(run_, lists, bond);
+    auto point = point_of_bond(run_, lists_, bond);
     if (!point) continue;
     points_.push_back(std::move(*point));
     pressed.push_back(bond.pressed);
   }
   find_members();
-  for (std::size_t k = first; k < points_.size(); ++k) {
-    ContactPoint<Dim>& point = points_[k];
-    look(point, places_[k]);
-    point.distance = places_[k].motion;
-    if (pressed[k - first] || places_[k].gap < 0.0) point.room -= places_[k].gap;
-  }
+  for (std::size_t k = first; k < points_.size(); ++k) begin(k, pressed[k - first]);
 }
 
 /// Points whose ends have lost bonds go on with the particles that are left, at the same gap and shift.
 template <int Dim>
-void Contact<Dim>::refit(const std::vector<ReleasedBond<Dim>>& released, const NeighbourLists& lists) {
+void Contact<Dim>::refit(const std::vector<ReleasedBond<Dim>>& released) {
   Mask touched(run_.particles.count, 0);
   for (const ReleasedBond<Dim>& bond : released) touched[bond.from] = touched[bond.to] = 1;
   std::vector<std::size_t> changed;
@@ -106,7 +107,7 @@ void Contact<Dim>::refit(const std::vector<ReleasedBond<Dim>>& released, const N
     look(point, places_[k]);
     changed.push_back(k);
     before.push_back(places_[k]);
-    fit_sides_of_bond(run_, lists, point);
+    fit_sides_of_bond(run_, lists_, point);
   }
   go_on(changed, before);
 }
@@ -116,13 +117,15 @@ bool Contact<Dim>::follow_slip() {
   constexpr double far = 0.5;  // spacings
   const double spacing = run_.setup.arrangement.spacing;
   const auto has_slid = [&](const Place& p) { return std::abs(p.shift) > far * spacing && p.gap < spacing; };
-  if (std::none_of(places_.begin(), places_.end(), has_slid)) return false;
+  bool any = false;
+  for (std::size_t k = 0; k < points_.size(); ++k) any = any || (!points_[k].of_face && has_slid(places_[k]));
+  if (!any) return false;
   std::vector<ContactPoint<Dim>> left;
   std::vector<std::size_t> changed;
   std::vector<Place> before;
   for (std::size_t k = 0; k < points_.size(); ++k) {
     ContactPoint<Dim>& point = points_[k];
-    if (has_slid(places_[k])) {
+    if (!point.of_face && has_slid(places_[k])) {
       const double slid = places_[k].shift;
       auto side = side_opposite(run_, point, slid);
       if (!side) continue;
@@ -138,6 +141,73 @@ bool Contact<Dim>::follow_slip() {
   return true;
 }
 
+/// Points of faces that press on each other go on at their gap and slip with what is opposite now; those of open ones
+/// begin anew.
+template <int Dim>
+bool Contact<Dim>::meet() {
+  if (!faces_.search_is_due()) return false;
+  std::vector<ContactPoint<Dim>> others;
+  std::map<std::size_t, std::pair<ContactPoint<Dim>, Place>> pressing;  // of the particle of the face
+  bool any = false;
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    ContactPoint<Dim>& point = points_[k];
+    any = any || point.of_face;
+    if (!point.of_face) {
+      others.push_back(std::move(point));
+    } else if (!point.force.isZero(0.0)) {
+      const std::size_t face = point.side[0].particle[0];
+      pressing.emplace(face, std::pair(std::move(point), std::move(places_[k])));
+    }
+  }
+  std::vector<ContactPoint<Dim>> found = faces_.search(others);
+  points_ = std::move(others);
+  if (!any && found.empty()) return false;
+  std::vector<std::size_t> going_on, fresh;
+  std::vector<Place> before;
+  for (ContactPoint<Dim>& point : found) {
+    const auto same = pressing.find(point.side[0].particle[0]);
+    if (same == pressing.end()) {
+      fresh.push_back(points_.size());
+    } else {
+      const ContactPoint<Dim>& old = same->second.first;
+      point.room = old.room, point.slip = old.slip, point.pressure = old.pressure, point.shear = old.shear;
+      point.force = old.force;
+      going_on.push_back(points_.size());
+      before.push_back(std::move(same->second.second));
+    }
+    points_.push_back(std::move(point));
+  }
+  go_on(going_on, before);
+  for (const std::size_t k : fresh) begin(k, false);
+  return true;
+}
+
+/// A new point: it has no slip, and faces that overlap already touch.
+template <int Dim>
+void Contact<Dim>::begin(std::size_t k, bool touches) {
+  ContactPoint<Dim>& point = points_[k];
+  look(point, places_[k]);
+  if (touches || places_[k].gap < 0.0) point.room -= places_[k].gap;
+}
+
+/// Moves the place on side 1 to where it is opposite the face now. The two forces of a point in one line make no
+/// moment.
+template <int Dim>
+void Contact<Dim>::follow(ContactPoint<Dim>& point, Place& place) const {
+  FaceSide& side = point.side[1];
+  if (side.particle.size() < 2 || place.gap > run_.setup.arrangement.spacing) return;
+  const double slid = place.shift;
+  const std::size_t first = point.side[0].particle.size();
+  for (std::size_t k = 0; k < side.particle.size(); ++k) {  // weights and slopes are right for linear fields
+    const std::size_t i = side.particle[k];
+    side.weight[k] -= slid * side.slope[k];
+    place.shares[first + k].weight = side.weight[k];
+    point.at_start -= slid * side.slope[k] * Vector(run_.particles.start[0][i], run_.particles.start[1][i]);
+  }
+  look(point, place);
+  point.slip += place.shift - slid;
+}
+
 template <int Dim>
 void Contact<Dim>::go_on(const std::vector<std::size_t>& changed, const std::vector<Place>& before) {
   find_members();
@@ -147,7 +217,6 @@ void Contact<Dim>::go_on(const std::vector<std::size_t>& changed, const std::vec
     look(point, place);
     point.room += before[n].gap - place.gap;
     point.slip += place.shift - before[n].shift;
-    point.distance += place.motion - before[n].motion;
   }
 }
 
@@ -166,7 +235,21 @@ void Contact<Dim>::look(const ContactPoint<Dim>& point, Place& place) const {
   place.normal = Vector(place.tangent[1], -place.tangent[0]);
   place.gap = place.normal.dot(distance) + point.room;
   place.shift = place.tangent.dot(distance);
-  place.motion = distance - point.distance;
+}
+
+template <int Dim>
+Vec<double, Dim> Contact<Dim>::motion(const ContactPoint<Dim>& point) const {
+  const Particles<Dim>& p = run_.particles;
+  Vector sum = Vector::Zero();
+  for_each_particle(point, [&](std::size_t i, double weight) {
+    sum += weight * Vector(p.velocity[0][i], p.velocity[1][i]);
+  });
+  return run_.dt * sum;
+}
+
+template <int Dim>
+void Contact<Dim>::book() {
+  for (const ContactPoint<Dim>& point : points_) taken_ -= 0.5 * point.force.dot(motion(point));
 }
 
 template <int Dim>
@@ -175,12 +258,14 @@ bool Contact<Dim>::prepare() {
     for (std::size_t k = 0; k < points_.size(); ++k) look(points_[k], places_[k]);
   };
   look_at_all();
-  if (follow_slip()) look_at_all();
+  const bool slid = follow_slip();
+  if (meet() || slid) look_at_all();
   bool touching = false;
   for (std::size_t k = 0; k < points_.size(); ++k) {
     ContactPoint<Dim>& point = points_[k];
-    point.distance += places_[k].motion;
     point.slip = point.law.slip_at(places_[k].gap, places_[k].shift, point.slip);
+    if (point.of_face) follow(point, places_[k]);
+    places_[k].motion = run_.started ? motion(point) : Vector::Zero();
     touching = touching || point.pressure > 0.0;
   }
   return touching;
@@ -241,12 +326,12 @@ double Contact<Dim>::correct(ContactPoint<Dim>& point, const Place& place, doubl
 }
 
 /// What was found goes to the particles, less the forces of the step before, which they have. The work of a force is
-/// that of the leap-frog: half with the velocity before it, half with the one after it.
+/// that of the leap-frog: half with the velocity before it, half with the one after it (book()).
 template <int Dim>
 void Contact<Dim>::apply(ContactPoint<Dim>& point, const Place& place, double step) {
   Particles<Dim>& p = run_.particles;
   const Vector force = point.pressure * place.normal + point.shear * place.tangent;
-  taken_ -= 0.5 * (point.force + force).dot(place.motion);
+  taken_ -= 0.5 * force.dot(place.motion);
   point.force = force;
   const Vector more = force - (place.pressure * place.normal + place.shear * place.tangent);
   if (more.isZero(0.0)) return;
@@ -306,12 +391,14 @@ template <int Dim>
 void Contact<Dim>::save(Writer& archive) const {
   archive(taken_);
   archive(points_);
+  faces_.save(archive);
 }
 
 template <int Dim>
 void Contact<Dim>::load(Reader& archive) {
   archive(taken_);
   archive(points_);
+  faces_.load(archive);
   find_members();
 }
 

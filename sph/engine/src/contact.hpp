@@ -6,6 +6,7 @@
 
 #include "boundary.hpp"
 #include "contact_point.hpp"
+#include "free_faces.hpp"
 
 namespace fpz::sph::detail {
 
@@ -16,11 +17,14 @@ namespace fpz::sph::detail {
 template <int Dim>
 class Contact {
  public:
-  Contact(RunData<Dim>& run, const Boundaries<Dim>& boundaries);
+  /// `lists` are those of the body; they must live as long as this.
+  Contact(RunData<Dim>& run, const Boundaries<Dim>& boundaries, const NeighbourLists& lists);
 
   /// The faces of cracks, from bonds that have just been cut. Those that were pressed together touch.
-  void add(const std::vector<ReleasedBond<Dim>>& released, const NeighbourLists& lists);
+  void add(const std::vector<ReleasedBond<Dim>>& released);
 
+  /// Books the first half of the work of the last forces, after the positions have been moved.
+  void book();
   /// Gaps at n. Whether faces have pressed on each other in the step before.
   [[nodiscard]] bool prepare();
   /// Adds the forces of the step before to RunData::outer_force.
@@ -60,18 +64,25 @@ class Contact {
     double gap = 0.0, shift = 0.0;               ///< m
     double normal_give = 0.0, shear_give = 0.0;  ///< m/N: what a newton adds to gap and shift at n + 1
     double pressure = 0.0, shear = 0.0;          ///< N, of the step before
-    Vector motion = Vector::Zero();              ///< m, of the distance since the kick before
+    Vector motion = Vector::Zero();              ///< m, of the last step: by what the distance has grown
   };
 
   void find_prescribed(const Boundaries<Dim>& boundaries);
   void find_members();
   static void add_shares(const ContactPoint<Dim>& point, const std::vector<std::size_t>& slots, Place& place);
-  void refit(const std::vector<ReleasedBond<Dim>>& released, const NeighbourLists& lists);
+  void refit(const std::vector<ReleasedBond<Dim>>& released);
   /// Gives points that have slid the partners that are opposite now, and drops those where nothing is; says whether
   /// there were any.
   bool follow_slip();
-  /// Points whose particles have changed go on at the gap, the shift and the distance that they had.
+  /// Finds the faces that are opposite each other now, of those that did not face each other before; says whether there
+  /// are or were any.
+  bool meet();
+  void begin(std::size_t k, bool touches);
+  void follow(ContactPoint<Dim>& point, Place& place) const;
+  /// Points whose particles have changed go on at the gap and the shift that they had.
   void go_on(const std::vector<std::size_t>& changed, const std::vector<Place>& before);
+  /// By how much the distance of a point's places has grown in the last step, m.
+  [[nodiscard]] Vector motion(const ContactPoint<Dim>& point) const;
   /// Gap and shift of a point whose shares are known.
   void look(const ContactPoint<Dim>& point, Place& place) const;
   void predict(double step);
@@ -81,6 +92,8 @@ class Contact {
   void apply(ContactPoint<Dim>& point, const Place& place, double step);
 
   RunData<Dim>& run_;
+  const NeighbourLists& lists_;
+  FreeFaces<Dim> faces_;
   Mask prescribed_;  ///< per particle, a bit for each component
   std::vector<ContactPoint<Dim>> points_;
   std::vector<Place> places_;

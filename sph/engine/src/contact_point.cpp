@@ -13,31 +13,15 @@ namespace {
 
 using Vec2 = Vec<double, 2>;
 
-constexpr double reach = 2.25;      // spacings, of the particles that a place of a face moves with: two rows and a half
+constexpr double reach = face_reach;
 constexpr double beside = 1.1;      // spacings: no face where no particle is nearer,
 constexpr double ahead = 0.75;      // or where all lie this far to one side along it
 constexpr double before_tip = 0.9;  // spacings: from there on bonds cross the cut in part (share_of_bond)
 
-/// A place on a face, the direction along it, and the one into its body.
-struct FacePlace {
-  std::optional<std::size_t> cut;  ///< that the face belongs to, where it is known
-  Vec2 at, along, inward;
-};
-
-/// Whether the particle at x lies behind the face and no other cut hides it.
-bool is_behind(const std::vector<Cut<2>>& cuts, const FacePlace& face, const Vec2& x) {
-  if ((x - face.at).dot(face.inward) <= 0.0) return false;
-  for (std::size_t k = 0; k < cuts.size(); ++k) {
-    if (face.cut != k && crosses(cuts[k], face.at, x)) return false;
-  }
-  return true;
-}
-
 Vec2 start_of(const RunData<2>& run, std::size_t i) { return {run.particles.start[0][i], run.particles.start[1][i]}; }
 
-/// Weights of particles with which linear fields are right at x, and their slopes along the face: the place then moves
-/// as the body does, and its forces have the right moment. Nothing when the particles lie on a line, or all to one side
-/// far away.
+}  // namespace
+
 std::optional<FaceSide> fitted_side(const RunData<2>& run, const Vec2& x, const Vec2& along,
                                     const std::vector<std::size_t>& particles) {
   constexpr double most = 4.0;  // sum of the sizes of the weights; two rows have 2, or 3 at the end of a face
@@ -55,6 +39,23 @@ std::optional<FaceSide> fitted_side(const RunData<2>& run, const Vec2& x, const 
   double size = 0.0;
   for (const double w : side.weight) size += std::abs(w);
   return size < most ? std::optional(side) : std::nullopt;
+}
+
+namespace {
+
+/// A place on a face, the direction along it, and the one into its body.
+struct FacePlace {
+  std::optional<std::size_t> cut;  ///< that the face belongs to, where it is known
+  Vec2 at, along, inward;
+};
+
+/// Whether the particle at x lies behind the face and no other cut hides it.
+bool is_behind(const std::vector<Cut<2>>& cuts, const FacePlace& face, const Vec2& x) {
+  if ((x - face.at).dot(face.inward) <= 0.0) return false;
+  for (std::size_t k = 0; k < cuts.size(); ++k) {
+    if (face.cut != k && crosses(cuts[k], face.at, x)) return false;
+  }
+  return true;
 }
 
 /// The particles behind a place. Nothing where the body is too far away.
@@ -136,7 +137,7 @@ void add_points(const RunData<2>& run, std::size_t k, std::vector<ContactPoint<2
     point.normal = normal;
     point.room = cut.gap - cut.width;
     point.law = contact_law(run, point.side, length / count, cut.friction);
-    point.at_start = point.distance = cut.width * normal;
+    point.at_start = cut.width * normal;
   }
 }
 

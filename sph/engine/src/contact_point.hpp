@@ -27,13 +27,14 @@ struct ContactPoint {
   Vec<double, Dim> at_start = Vec<double, Dim>::Zero();  ///< m, from place 0 to place 1, there
   double room = 0.0;      ///< m: the gap is the distance of the places along the normal plus this
   bool of_crack = false;  ///< its first particles are the ends of a bond that was cut
+  bool of_face = false;   ///< of faces that did not face each other before: its first particles are theirs, the normal
+                          ///< that of side 1
   ContactLaw law;
 
   double slip = 0.0;                                     ///< m
   double pressure = 0.0;                                 ///< N, of the last kick
   double shear = 0.0;                                    ///< N, likewise, on side 1 to the left of the normal
   Vec<double, Dim> force = Vec<double, Dim>::Zero();     ///< N, both, on side 1
-  Vec<double, Dim> distance = Vec<double, Dim>::Zero();  ///< m, from place 0 to place 1 at the last kick
 };
 
 template <class Archive, class S>
@@ -43,10 +44,20 @@ void transfer(Archive& archive, S& side) requires std::same_as<std::remove_const
 
 template <class Archive, class P>
 void transfer(Archive& archive, P& p) requires std::same_as<std::remove_const_t<P>, ContactPoint<2>> {
-  archive(p.side), archive(p.normal), archive(p.at_start), archive(p.room), archive(p.of_crack);
+  archive(p.side), archive(p.normal), archive(p.at_start), archive(p.room), archive(p.of_crack), archive(p.of_face);
   archive(p.law.normal_stiffness), archive(p.law.shear_stiffness), archive(p.law.friction);
-  archive(p.slip), archive(p.pressure), archive(p.shear), archive(p.force), archive(p.distance);
+  archive(p.slip), archive(p.pressure), archive(p.shear), archive(p.force);
 }
+
+/// Spacings: of the particles that a place of a face moves with, two rows and a half.
+inline constexpr double face_reach = 2.25;
+
+/// Weights of particles with which linear fields are right at x, and their slopes along the face: the place then moves
+/// as the body does, and its forces have the right moment. Nothing when the particles lie on a line, or all to one side
+/// far away.
+[[nodiscard]] std::optional<FaceSide> fitted_side(const RunData<2>& run, const Vec<double, 2>& x,
+                                                  const Vec<double, 2>& along,
+                                                  const std::vector<std::size_t>& particles);
 
 /// Law of faces of `area` (m, per metre of thickness) with this coefficient of friction, and with the stiffness of what
 /// their first particles are made of.

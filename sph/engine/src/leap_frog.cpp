@@ -17,7 +17,7 @@ Engine<Dim>::Engine(const RunSetup<Dim>& setup, double time_step)
     control.emplace(run, options.zero_energy_control);
   }
   if (options.configuration == Configuration::reference && options.contact_stiffness > 0.0) {
-    contact.emplace(run, boundaries);
+    contact.emplace(run, boundaries, body->lists());
   }
 }
 
@@ -28,9 +28,10 @@ Outcome Engine<Dim>::step() {
   // 1. Positions at n + 1 (eq 31); densities, stresses and cracks there (eq 19, eq 21).
   const Outcome outcome = body->advance();
   if (!outcome.ok()) return outcome;
+  if (contact) contact->book();
   if (control) control->let_go(run.dt);
   const std::vector<ReleasedBond<Dim>> released = body->take_released();
-  if (contact && !released.empty()) contact->add(released, body->lists());
+  if (contact && !released.empty()) contact->add(released);
   // 2. Forces at n + 1 (eq 20), velocities at n + 3/2 (eq 26).
   kick(run.dt);
   return find_bad();
