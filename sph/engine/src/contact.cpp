@@ -241,9 +241,8 @@ template <int Dim>
 Vec<double, Dim> Contact<Dim>::motion(const ContactPoint<Dim>& point) const {
   const Particles<Dim>& p = run_.particles;
   Vector sum = Vector::Zero();
-  for_each_particle(point, [&](std::size_t i, double weight) {
-    sum += weight * Vector(p.velocity[0][i], p.velocity[1][i]);
-  });
+  for_each_particle(point,
+                    [&](std::size_t i, double weight) { sum += weight * Vector(p.velocity[0][i], p.velocity[1][i]); });
   return run_.dt * sum;
 }
 

@@ -31,10 +31,10 @@ struct ContactPoint {
                           ///< that of side 1
   ContactLaw law;
 
-  double slip = 0.0;                                     ///< m
-  double pressure = 0.0;                                 ///< N, of the last kick
-  double shear = 0.0;                                    ///< N, likewise, on side 1 to the left of the normal
-  Vec<double, Dim> force = Vec<double, Dim>::Zero();     ///< N, both, on side 1
+  double slip = 0.0;                                  ///< m
+  double pressure = 0.0;                              ///< N, of the last kick
+  double shear = 0.0;                                 ///< N, likewise, on side 1 to the left of the normal
+  Vec<double, Dim> force = Vec<double, Dim>::Zero();  ///< N, both, on side 1
 };
 
 template <class Archive, class S>

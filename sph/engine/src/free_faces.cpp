@@ -1,6 +1,7 @@
 #include "free_faces.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -15,11 +16,12 @@ namespace {
 using Vec2 = Vec<double, 2>;
 
 // In spacings:
-constexpr double near_by = 1.6;   // of the neighbours that tell whether a particle lies on the surface
-constexpr double margin = 0.5;    // gap up to which faces get a point
-constexpr double deepest = 1.0;   // overlap up to which a face is on this side of another
-constexpr double sideways = 1.1;  // from a face to the place opposite another: beside an edge, which has none, a spacing
-constexpr double moved = 0.2;     // of each of two faces between searches: together less than the margin
+constexpr double near_by = 1.6;  // of the neighbours that tell whether a particle lies on the surface
+constexpr double margin = 0.5;   // gap up to which faces get a point
+constexpr double deepest = 1.0;  // overlap up to which a face is on this side of another
+constexpr double sideways =
+    1.1;                       // from a face to the place opposite another: beside an edge, which has none, a spacing
+constexpr double moved = 0.2;  // of each of two faces between searches: together less than the margin
 
 Vec2 left_of(const Vec2& v) { return {-v[1], v[0]}; }
 Vec2 right_of(const Vec2& v) { return {v[1], -v[0]}; }
@@ -58,18 +60,32 @@ std::optional<OpenSide> open_side(const RunData<2>& run, const std::vector<int>&
   return most > before ? std::nullopt : std::optional(OpenSide{normal, most < beside});
 }
 
-/// The pairs of particles that lie on the two sides of the same point, both ways round, sorted.
-std::vector<std::pair<std::size_t, std::size_t>> joined_pairs(const std::vector<ContactPoint<2>>& points) {
-  std::vector<std::pair<std::size_t, std::size_t>> pairs;
-  for (const ContactPoint<2>& point : points) {
-    for (const std::size_t i : point.side[0].particle) {
-      for (const std::size_t j : point.side[1].particle) pairs.emplace_back(i, j), pairs.emplace_back(j, i);
+/// Which of some particles lie on which sides of points.
+class Seats {
+ public:
+  Seats(const std::vector<ContactPoint<2>>& points, const std::vector<bool>& wanted) {
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      for (std::size_t s = 0; s < 2; ++s) {
+        for (const std::size_t i : points[k].side[s].particle) {
+          if (wanted[i]) seats_.push_back({i, k, s});
+        }
+      }
     }
+    std::sort(seats_.begin(), seats_.end());
   }
-  std::sort(pairs.begin(), pairs.end());
-  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-  return pairs;
-}
+  /// Whether two particles are on the two sides of one point.
+  [[nodiscard]] bool face_each_other(std::size_t i, std::size_t j) const {
+    for (auto at = std::lower_bound(seats_.begin(), seats_.end(), Seat{i, 0, 0}); at != seats_.end() && (*at)[0] == i;
+         ++at) {
+      if (std::binary_search(seats_.begin(), seats_.end(), Seat{j, (*at)[1], 1 - (*at)[2]})) return true;
+    }
+    return false;
+  }
+
+ private:
+  using Seat = std::array<std::size_t, 3>;  // particle, point, side
+  std::vector<Seat> seats_;
+};
 
 }  // namespace
 
@@ -135,8 +151,8 @@ void FreeFaces<Dim>::put_on_surface(FreeFace<Dim>& face) const {
   }
 }
 
-/// What a place in front of a particle moves with: the particle and what is bonded to it, behind the place. The particle
-/// alone where these do not determine a linear field.
+/// What a place in front of a particle moves with: the particle and what is bonded to it, behind the place. The
+/// particle alone where these do not determine a linear field.
 template <int Dim>
 FaceSide FreeFaces<Dim>::side_at(std::size_t particle, const Vector& at, const Vector& normal) const {
   std::vector<std::size_t> particles = {particle};
@@ -253,13 +269,13 @@ std::vector<ContactPoint<Dim>> FreeFaces<Dim>::search(const std::vector<ContactP
   }
   if (partners.empty()) return {};
 
-  const auto joined_already = joined_pairs(facing);
+  std::vector<bool> wanted(run_.particles.count, false);
+  for (const Partner& p : partners) wanted[faces_[p.face].particle] = wanted[faces_[p.other].particle] = true;
+  const Seats seats(facing, wanted);
   std::vector<ContactPoint<Dim>> points;
   for (const Partner& p : partners) {
     const FreeFace<Dim>&face = faces_[p.face], &other = faces_[p.other];
-    if (std::binary_search(joined_already.begin(), joined_already.end(), std::pair(face.particle, other.particle))) {
-      continue;
-    }
+    if (seats.face_each_other(face.particle, other.particle)) continue;
     points.push_back(joined(face, other, p.along));
   }
   return points;

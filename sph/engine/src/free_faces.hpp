@@ -1,5 +1,5 @@
-// Where the body ends now: its outer surface, its notches and the faces of its cracks; and which of these ends have come
-// near each other though they did not face each other before.
+// Where the body ends now: its outer surface, its notches and the faces of its cracks; and which of these ends have
+// come near each other though they did not face each other before.
 #pragma once
 
 #include <vector>
@@ -19,8 +19,8 @@ struct FreeFace {
 };
 
 /// The faces are found from the bonds that are left, so that those of outlines, holes, notches and cracks are one. They
-/// lie on the lines of the surface and the cuts where the arrangement describes them, else half the size of the particle
-/// before it. Only `reference` has them.
+/// lie on the lines of the surface and the cuts where the arrangement describes them, else half the size of the
+/// particle before it. Only `reference` has them.
 template <int Dim>
 class FreeFaces {
  public:

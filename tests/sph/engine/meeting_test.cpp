@@ -66,7 +66,8 @@ TEST(Meeting, BarsThatCollideExchangeTheirVelocities) {
   EXPECT_LT(momentum(run).norm(), 1e-12 * mass * 5.0);
   EXPECT_LT(std::abs(spin(run)), 1e-9 * mass * 5.0 * rows * spacing);
   EXPECT_NEAR(up[1] - down[1], 10.0, 0.5);  // what lacks vibrates: a front is a few particles wide
-  EXPECT_NEAR(touching, 2.0 * rows * spacing / std::sqrt(s.parameters.young_modulus / s.parameters.density), 0.1 * touching);
+  EXPECT_NEAR(touching, 2.0 * rows * spacing / std::sqrt(s.parameters.young_modulus / s.parameters.density),
+              0.1 * touching);
   const Energies e = run.energies();
   EXPECT_LT(std::abs(e.error()), 1e-6 * e.kinetic_start);
   EXPECT_LT(e.friction, 0.02 * e.kinetic_start);
@@ -166,7 +167,8 @@ TEST(Meeting, ABlockSlidesOffAnother) {
   const Vector mean = mean_force(run, 3.2e-3);  // slides by 3.2 spacings
   // Damping resists the motion as a whole too, but takes nothing from the friction.
   EXPECT_NEAR(mean[1], -force, 0.01 * force);
-  EXPECT_NEAR(run.energies().friction - before, friction * force * 3.2 * spacing, 0.01 * friction * force * 3.2 * spacing);
+  EXPECT_NEAR(run.energies().friction - before, friction * force * 3.2 * spacing,
+              0.01 * friction * force * 3.2 * spacing);
   std::printf("friction %.4f of Coulomb's\n", (run.energies().friction - before) / (friction * force * 3.2 * spacing));
   EXPECT_LT(run.overlap(), 0.01 * spacing);
   EXPECT_LT(std::abs(run.energies().error()), 1e-3 * run.energies().external);
@@ -243,12 +245,12 @@ TEST(Meeting, ABrokenPieceLandsElsewhere) {
   Simulation<2> run(s);
   advance_to(run, 3e-3);
   EXPECT_GT(run.released_bonds(), 50);
-  EXPECT_LT(run.energies().contact, 1e-6 * run.energies().fracture);
+  EXPECT_LT(run.energies().contact, 1e-4 * run.energies().fracture);
   advance_to(run, 3.95e-3);
   // Ten columns bear, more than sixteen did in tension; their rough faces are crushed.
   EXPECT_GT(-mean_force(run, 4e-3)[1], 16.0 * spacing * s.parameters.tensile_strength);
   EXPECT_LT(run.overlap(), 0.02 * spacing);
-  EXPECT_LT(std::abs(run.energies().error()), 0.02 * run.energies().external);
+  EXPECT_LT(std::abs(run.energies().error()), 0.01 * run.energies().external);
   std::printf("force %.4g N, overlap %.3g um, error %.3g of the work\n", -run.reaction(1)[1], 1e6 * run.overlap(),
               run.energies().error() / run.energies().external);
 }
