@@ -11,6 +11,7 @@
 #include "fpz/driver/replay.hpp"
 #include "fpz/driver/run.hpp"
 #include "fpz/driver/tangent_check.hpp"
+#include "fpz/io/csv_options.hpp"
 #include "fpz/io/output.hpp"
 #include "fpz/io/terminal.hpp"
 
@@ -118,8 +119,20 @@ int check(const std::string& file, const TangentCheckOptions& options) {
   return ok ? 0 : 1;
 }
 
-int compare(const std::string& history, const std::string& reference, const CompareOptions& options) {
-  const Comparison result = compare_histories(io::read_csv(history), io::read_csv(reference), options);
+/// A reference file and what a person says of its notation, words or characters; empty: found in the file.
+struct Reference {
+  std::string file, separator, decimal;
+
+  [[nodiscard]] io::Table read() const {
+    io::CsvOptions notation;
+    if (!separator.empty()) notation.separator = io::csv_separator(separator);
+    if (!decimal.empty()) notation.decimal = io::csv_decimal(decimal);
+    return io::read_csv(file, notation);
+  }
+};
+
+int compare(const std::string& history, const Reference& reference, const CompareOptions& options) {
+  const Comparison result = compare_histories(io::read_csv(history), reference.read(), options);
   std::cout << result.report();
   return result.ok() ? 0 : 1;
 }
@@ -187,12 +200,21 @@ int main(int argc, char** argv) try {
   check_command->footer("Example:\n  fpz-driver check data/paths/four_stage.json --every 20");
 
   std::string history;
-  std::string reference;
+  Reference reference;
   CompareOptions compare_options;
   CLI::App* compare_command = app.add_subcommand("compare", "Compare a history with a reference CSV");
   compare_command->add_option("HISTORY.csv", history, "history to judge")->required();
-  compare_command->add_option("REFERENCE.csv", reference, "with the columns of a history, or T,sxx,...,us2")
+  compare_command->add_option("REFERENCE.csv", reference.file, "with the columns of a history, or T,sxx,...,us2")
       ->required();
+  const auto known = [](auto parse, const std::string& words) {
+    return [parse, words](const std::string& text) {
+      return parse(text) ? std::string() : "'" + text + "' is not known; it must be " + words + " or the character";
+    };
+  };
+  compare_command->add_option("--separator", reference.separator, "of the reference; found in it without")
+      ->check(known(io::csv_separator, fpz::all_words<io::CsvSeparator>()));
+  compare_command->add_option("--decimal", reference.decimal, "mark of the reference; found in it without")
+      ->check(known(io::csv_decimal, fpz::all_words<io::DecimalMark>()));
   compare_command->add_option("--stress-tolerance", compare_options.stress_tolerance, "relative to the stress scale")
       ->capture_default_str();
   compare_command->add_option("--stress-scale", compare_options.stress_scale, "Pa; 0: largest stress in the reference")

@@ -43,6 +43,16 @@ std::optional<TextEncoding> encoding_of(std::string_view name) {
 
 }  // namespace
 
+std::optional<CsvSeparator> csv_separator(std::string_view text) {
+  const auto known = from_word<CsvSeparator>(text);
+  return known ? known : separator_of(text);
+}
+
+std::optional<DecimalMark> csv_decimal(std::string_view text) {
+  const auto known = from_word<DecimalMark>(text);
+  return known ? known : mark_of(text);
+}
+
 CsvOptions read_csv_options(const InputReader& reader, const Place& place) {
   CsvOptions options;
   const auto member = [&](std::string_view key) { return place.value().find(key); };

@@ -28,6 +28,22 @@ void check_bedding(const SceneCheck& c, const Place& p, const Interface& f) {
   }
 }
 
+/// An interface has a strength; the particles that it goes through keep their elasticity.
+void check_elasticity(const SceneCheck& c, const Place& p, const Parameters& m) {
+  const auto is_of = [&](const Parameters& rock) {
+    return m.young_modulus == rock.young_modulus && m.poisson_ratio == rock.poisson_ratio && m.density == rock.density;
+  };
+  bool known = is_of(c.scene.parameters);
+  for (const Region& region : c.scene.regions) {
+    known = known || is_of(c.scene.further_materials[region.material - 1].parameters);
+  }
+  if (known) return;
+  c.warn(p, "its young_modulus = " + brief(m.young_modulus) + ", poisson_ratio = " + brief(m.poisson_ratio) +
+                " and density = " + brief(m.density) +
+                " have no effect: what lies beside an interface keeps those of its own material; for a layer that is "
+                "softer use a region");
+}
+
 void check_weakness(const SceneCheck& c, const Place& p, const Parameters& m) {
   const auto is_as_strong_as = [&](const Parameters& rock) {
     return m.tensile_strength >= rock.tensile_strength && m.cohesion >= rock.cohesion &&
@@ -47,7 +63,10 @@ void check_interfaces(const SceneCheck& c) {
     const Interface& f = c.scene.interfaces[k];
     with(p, "line", [&](const Place& at) { check_line(c, at, f); });
     with(p, "bedding", [&](const Place& at) { check_bedding(c, at, f); });
-    with(p, "material", [&](const Place& at) { check_weakness(c, at, f.material); });
+    with(p, "material", [&](const Place& at) {
+      check_weakness(c, at, f.material);
+      check_elasticity(c, at, f.material);
+    });
   });
 }
 

@@ -107,6 +107,16 @@ void check_division(const SceneCheck& c, const Place& p, const NotchLine& line) 
   });
 }
 
+/// Where nothing presses the faces together, none of them slides.
+void check_friction(const SceneCheck& c, const Place& p) {
+  if (c.scene.options.configuration == sph::Configuration::reference) return;
+  with(p, "friction_angle_deg", [&](const Place& at) {
+    c.problem(at,
+              "faces press on each other and slide in the configuration reference only, and pass through each other "
+              "with method.configuration = updated: leave one of them out");
+  });
+}
+
 void check_width(const SceneCheck& c, const Place& p, const Notch& notch) {
   const auto [low, high] = extent(c.scene.body.shape);
   const double widest = (high - low).minCoeff();
@@ -145,6 +155,7 @@ void check_notch(const SceneCheck& c, const Place& p, std::size_t k) {
   check_length(c, p, line);
   check_width(c, p, n);
   check_tip(c, p, line);
+  check_friction(c, p);
   check_division(c, p, line);
 }
 

@@ -23,7 +23,7 @@ std::size_t region_at(const Scene& scene, const Point& x) {
 /// Regions of the particles of a file: its column "material" says 0 for none, else 1 for the first, ...
 std::vector<int> regions_of_file(const Scene& scene) {
   const std::string file = scene.particles->file.string();
-  std::vector<int> regions = read_particle_materials(scene.particles->file);
+  std::vector<int> regions = read_particle_materials(scene.particles->file, scene.particles->notation);
   const auto known = [&](int k) { return k >= 0 && static_cast<std::size_t>(k) <= scene.regions.size(); };
   const auto wrong = std::find_if_not(regions.begin(), regions.end(), known);
   if (wrong != regions.end()) {

@@ -28,9 +28,9 @@ sph::Arrangement<2> assemble(const std::vector<double>& x, const std::vector<dou
 
 }  // namespace
 
-sph::Arrangement<2> read_particles(const std::filesystem::path& file, double spacing) {
+sph::Arrangement<2> read_particles(const std::filesystem::path& file, double spacing, const io::CsvOptions& notation) {
   if (file.extension() == ".csv") {
-    const io::Table t = io::read_csv(file);
+    const io::Table t = io::read_csv(file, notation);
     return assemble(t.at("x"), t.at("y"), t.find("volume"), t.find("group"), spacing, file.string());
   }
   if (file.extension() != ".vtu" && file.extension() != ".vtk") {
@@ -49,10 +49,10 @@ sph::Arrangement<2> read_particles(const std::filesystem::path& file, double spa
   return assemble(x, y, scalars("volume"), scalars("group"), spacing, file.string());
 }
 
-std::vector<int> read_particle_materials(const std::filesystem::path& file) {
+std::vector<int> read_particle_materials(const std::filesystem::path& file, const io::CsvOptions& notation) {
   std::vector<double> numbers;
   if (file.extension() == ".csv") {
-    const io::Table t = io::read_csv(file);
+    const io::Table t = io::read_csv(file, notation);
     if (const std::vector<double>* column = t.find("material")) numbers = *column;
   } else {
     const PointCloud cloud = read_vtk(file);

@@ -1,7 +1,10 @@
 // How the particles of the specimen lie: one reader per kind of arrangement, listed in arrangement_kinds.
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
+#include "fpz/io/csv_options.hpp"
 #include "scene_reader.hpp"
 
 namespace fpz::specimen::detail {
@@ -85,11 +88,20 @@ void read_scattered(const InputReader& r, const Place& place, Scene& scene) {
   read_seed(r, place, scene.pattern);
 }
 
-constexpr std::string_view file_keys[] = {"type", "file"};
+constexpr auto file_keys = [] {
+  std::array<std::string_view, 2 + io::csv_option_keys.size()> keys = {"type", "file"};
+  std::copy(io::csv_option_keys.begin(), io::csv_option_keys.end(), keys.begin() + 2);
+  return keys;
+}();
 void read_file(const InputReader& r, const Place& place, Scene& scene) {
+  const io::CsvOptions notation = io::read_csv_options(r, place);
   with_required(r, place, "file", [&](const Place& p) {
     if (const auto name = r.text(p, 4000)) {
-      scene.particles = ParticleFile{(std::filesystem::path(r.file()).parent_path() / *name)};
+      scene.particles = ParticleFile{std::filesystem::path(r.file()).parent_path() / *name, notation};
+      if (scene.particles->file.extension() == ".csv") return;
+      for (const std::string_view key : io::csv_option_keys) {
+        with(place, key, [&](const Place& of) { r.problem(of, "is of .csv files only"); });
+      }
     }
   });
 }

@@ -31,8 +31,9 @@ void fail_if_any(const Scene& scene, const std::vector<std::string>& wrong) {
 }
 
 sph::Arrangement<2> place(const Scene& scene) {
-  sph::Arrangement<2> a = scene.particles ? read_particles(scene.particles->file, scene.spacing)
-                                          : place_specimen(scene.body, scene.pattern, scene.spacing);
+  sph::Arrangement<2> a = scene.particles
+                              ? read_particles(scene.particles->file, scene.spacing, scene.particles->notation)
+                              : place_specimen(scene.body, scene.pattern, scene.spacing);
   for (std::size_t b = 0; b < scene.boundaries.size(); ++b) {
     const Boundary& boundary = scene.boundaries[b];
     const int group = static_cast<int>(b);

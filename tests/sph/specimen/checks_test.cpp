@@ -67,8 +67,22 @@ TEST(Checks, ShippedScenesGiveNoFalseAlarm) {
   }
 }
 
+TEST(Checks, InterfacesHaveNoElasticity) {
+  expect_answers({{warned,
+                   "uniaxial_compression.json",
+                   {R"(interfaces=[{"name": "bed", "line": [[-0.1, 0.05], [0.1, 0.05]], "material": {"name": "clay",
+                       "young_modulus": 1e9, "poisson_ratio": 0.3, "density": 2000, "tensile_strength": 1e5,
+                       "cohesion": 2e5, "friction_angle_deg": 20, "dilation_angle_deg": 0, "delta0": 1e-4,
+                       "normal_stiffness": 1e13, "shear_stiffness": 1e13}}])"},
+                   {"interfaces[0].material: its young_modulus = 1e+09", "have no effect"}}});
+}
+
 TEST(Checks, Notches) {
   expect_answers({
+      {refused,
+       beam,
+       {"method.configuration=updated", "notches[0].friction_angle_deg=30"},
+       {"notches[0].friction_angle_deg: 30: faces press on each other and slide in the configuration reference only"}},
       {refused,
        beam,
        {"notches[0].mouth=[0.3,0]"},

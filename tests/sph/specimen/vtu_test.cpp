@@ -66,6 +66,13 @@ TEST(ParticleFile, CsvVtuAndLegacyVtk) {
   EXPECT_EQ(a.volume[1], 2e-6);
   EXPECT_EQ(a.group[1], 0);
 
+  fpz::io::CsvOptions notation;
+  notation.separator = fpz::io::CsvSeparator::semicolon;
+  notation.decimal = fpz::io::DecimalMark::comma;
+  std::ofstream(csv) << "x;y;volume\n0;0;1\n1,234;0;2\n";  // 1.234 or 1234
+  EXPECT_THROW((void)read_particles(csv, 1e-3), fpz::io::InputError);
+  EXPECT_EQ(read_particles(csv, 1e-3, notation).position[1], Point(1.234, 0));
+
   const fs::path vtk = folder() / "p.vtk";
   std::ofstream(vtk)
       << "# vtk DataFile Version 3.0\nparticles\nASCII\nDATASET POLYDATA\nPOINTS 2 double\n0 0 0\n1 2 0\n"

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "fpz/io/csv.hpp"
 #include "fpz/io/json_locator.hpp"
 #include "fpz/parameters.hpp"
 #include "fpz/specimen/gauge.hpp"
@@ -23,6 +24,7 @@ namespace fpz::specimen {
 /// Particles from a file instead of a pattern (docs/scenes.md, "Particles from a file").
 struct ParticleFile {
   std::filesystem::path file;
+  io::CsvOptions notation = {};  ///< of a CSV file, where it does not say itself
 };
 
 /// A group of boundary particles and how it moves.

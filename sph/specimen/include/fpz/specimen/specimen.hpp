@@ -38,11 +38,13 @@ struct Specimen {
 
 /// Particles from a CSV (columns x, y; optional volume, group), .vtu or legacy .vtk file (point data volume, group).
 /// Without volumes all have spacing^2. Group -1 is the specimen, others are indices of boundaries.
-[[nodiscard]] sph::Arrangement<2> read_particles(const std::filesystem::path& file, double spacing);
+[[nodiscard]] sph::Arrangement<2> read_particles(const std::filesystem::path& file, double spacing,
+                                                 const io::CsvOptions& notation = {});
 
 /// Column (or point data) `material` of such a file, a region's number for each particle, 0 for none; empty when it has
 /// no such column.
-[[nodiscard]] std::vector<int> read_particle_materials(const std::filesystem::path& file);
+[[nodiscard]] std::vector<int> read_particle_materials(const std::filesystem::path& file,
+                                                       const io::CsvOptions& notation = {});
 
 /// The particles of the specimen for the crack measures (without boundary particles).
 [[nodiscard]] std::vector<Spot> spots(const sph::Simulation<2>& run, const Specimen& specimen);
