@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <stdexcept>
 #include <variant>
 
 #include "report/display.hpp"
+#include "scene_fit.hpp"
 
 namespace fpz::calibration {
 namespace {
@@ -342,13 +344,23 @@ Parameters parameters_at(const Specification& spec, const Eigen::VectorXd& unkno
   return with_values(spec.start(), fitted_parameters(spec), unknowns);
 }
 
-Calibration calibrate(const Specification& spec, const std::function<void(const FitProgress&)>& progress) {
+Calibration calibrate(const Specification& spec, const std::function<void(const FitProgress&)>& progress,
+                      const RunScenes& run) {
   Calibration all;
   all.specification = spec;
   all.problem = make_problem(spec);
   FitOptions options = fit_options(spec);
   options.progress = progress;
-  all.result = fit(all.problem, options);
+  if (detail::has_scenes(spec)) {
+    if (!run) throw std::invalid_argument("calibrate: the data have scenes, and nothing that runs them was given");
+    detail::SceneFit fitted = detail::fit_with_runs(spec, options, run);
+    all.specification = std::move(fitted.specification);
+    all.problem = make_problem(all.specification);
+    all.result = std::move(fitted.result);
+    all.scenes = std::move(fitted.summary);
+  } else {
+    all.result = fit(all.problem, options);
+  }
   const bool any = all.result.values.size() == static_cast<Eigen::Index>(all.problem.parameters.size());
   all.parameters = any ? parameters_at(spec, all.result.values) : spec.start();
   const std::vector<int> fitted = fitted_parameters(spec);

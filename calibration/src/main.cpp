@@ -15,6 +15,7 @@
 #include "fpz/calibration/calibration.hpp"
 #include "fpz/calibration/quick_specification.hpp"
 #include "fpz/calibration/report.hpp"
+#include "fpz/calibration/scene_runs.hpp"
 #include "fpz/io/output.hpp"
 #include "fpz/io/terminal.hpp"
 
@@ -33,7 +34,7 @@ volatile std::sig_atomic_t interrupted = 0;
 void on_interrupt(int /*signal*/) {
   interrupted = 1;
   if (writing != 0) return;
-  const char text[] = "\nfpz-calibrate: interrupted, nothing was written\n";
+  const char text[] = "\nfpz-calibrate: interrupted, no result was written; runs of scenes are kept\n";
   const auto ignored = ::write(STDERR_FILENO, text, sizeof text - 1);
   (void)ignored;
   ::_exit(interrupted_status);
@@ -59,10 +60,9 @@ class FitProgressLine {
       return;
     }
     if (!line_.due()) return;
-    char text[80];
-    std::snprintf(text, sizeof text, ", %.0f %%, cost %.6g, %s elapsed", 100.0 * p.fraction, p.cost,
-                  io::clock_text(elapsed).c_str());
-    line_.show(p.stage + text);
+    char numbers[80];
+    std::snprintf(numbers, sizeof numbers, "%.0f %%, cost %.6g", 100.0 * p.fraction, p.cost);
+    line_.show(p.stage + ", " + (p.detail.empty() ? numbers : p.detail) + ", " + io::clock_text(elapsed) + " elapsed");
   }
 
  private:
@@ -79,9 +79,11 @@ struct Arguments {
   bool pictures = true;
   int starts = 0;
   std::int64_t seed = -1;
+  std::string runs;  ///< folder of the runs of scenes; empty: in the output folder
+  int jobs = 0;
 };
 
-int check(const Specification& spec) {
+int check(const Specification& spec, int jobs) {
   const FitProblem problem = make_problem(spec);
   require_valid(problem);
   io::print_notes(spec.conversions);
@@ -96,6 +98,7 @@ int check(const Specification& spec) {
               << (d.role == Role::fit ? "fitted" : "predicted") << "\n";
     if (!d.file.empty()) std::cout << "    " << d.file << ": " << d.notation << "\n";
   }
+  if (const std::string runs = estimate_of_runs(spec, jobs); !runs.empty()) std::cout << "  " << runs << "\n";
   return 0;
 }
 
@@ -195,14 +198,17 @@ int run(const Arguments& arguments) {
   Specification spec = specification_of(arguments);
   if (arguments.starts > 0) spec.options.starts = arguments.starts;
   if (arguments.seed >= 0) spec.options.seed = static_cast<std::uint64_t>(arguments.seed);
-  if (arguments.check) return check(spec);
+  if (arguments.check) return check(spec, arguments.jobs);
   io::make_writable_folder(arguments.out);  // before the work, not after it
   io::require_absent(report_files(spec, arguments.out, arguments.pictures), arguments.force);
   io::print_notes(spec.conversions);
   Calibration result;
   {
     FitProgressLine line;
-    result = calibrate(spec, [&](const FitProgress& p) { line.show(p); });
+    const std::filesystem::path runs =
+        arguments.runs.empty() ? std::filesystem::path(arguments.out) / "runs" : std::filesystem::path(arguments.runs);
+    result = calibrate(
+        spec, [&](const FitProgress& p) { line.show(p); }, scene_runner({runs, arguments.jobs}));
   }
   io::print_warnings(result.warnings);
   writing = 1;
@@ -232,6 +238,11 @@ int main(int argc, char** argv) try {
       ->check(CLI::Range(1, 1000));
   app.add_option("--seed", arguments.seed, "seed of the starts, in place of the specification's")
       ->check(CLI::Range(std::int64_t{0}, std::int64_t{2'000'000'000}));
+  app.add_option("--runs", arguments.runs,
+                 "folder that keeps the runs of scenes, so that a fit goes on or is repeated quickly; default: runs in "
+                 "the output folder");
+  app.add_option("--jobs", arguments.jobs, "runs of scenes at the same time, one core each; default: one per core")
+      ->check(CLI::Range(1, 10000));
   const BendingCommand beam(
       app, "beam", "Fit a notched beam from its curve and lengths, without a specification", "notched_beam",
       {{"depth", "!depth of the beam"},

@@ -172,6 +172,12 @@ Json profiles_json(const Calibration& all) {
   return profiles;
 }
 
+Json scenes_json(const SceneFitSummary& s) {
+  return {{"parameter_sets_run", s.runs}, {"used_by_the_surface", s.used}, {"failed", s.failed},
+          {"rounds", s.rounds},           {"relative_scatter", s.scatter}, {"standard_error_from_runs", list(s.error)},
+          {"progress", s.words}};
+}
+
 Json energies_json(const TwoEnergies& e) {
   Json freed = Json::array();
   for (const FreedParameter& f : e.freed) {
@@ -245,6 +251,8 @@ std::string report_json(const Calibration& all) {
   j["starts"] = starts_json(r);
   j["distinct_minima"] = r.distinct_minima;
   j["profiles"] = profiles_json(all);
+  j["scene_runs"] = all.scenes ? scenes_json(*all.scenes) : Json(nullptr);
+  j["conversions"] = all.specification.conversions;
   j["fracture_energies"] = all.energies ? energies_json(*all.energies) : Json(nullptr);
   j["warnings"] = all.warnings;
   return j.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -34,6 +34,7 @@ class MarkdownReport {
     warnings();  // before the numbers that they are about
     parameters();
     undetermined();
+    scenes();
     data();
     derived();
     references();
@@ -137,6 +138,27 @@ class MarkdownReport {
       out_ << (k > 0 ? ", " : " ") << digits(r_.singular_values[k], 3);
     }
     out_ << ".\n\n";
+  }
+
+  void scenes() {
+    if (!all_.scenes || all_.scenes->runs == 0) return;
+    const SceneFitSummary& s = *all_.scenes;
+    out_ << "## Runs of the scenes\n\nThe scenes were run with " << s.runs << " parameter sets in " << s.rounds
+         << (s.rounds == 1 ? " round" : " rounds") << "; the last surface goes through " << s.used << " of them.";
+    if (s.failed > 0) out_ << " Without a prediction: " << s.failed << '.';
+    if (s.noise_runs > 2) {
+      out_ << " Runs whose parameters differ by 0.2 % or less scatter by " << digits(100.0 * s.scatter, 2)
+           << " % about the surface.";
+    }
+    out_ << "\n\n| parameter | standard error | of it, from the scatter of the runs |\n| --- | --- | --- |\n";
+    for (Eigen::Index k = 0; k < s.error.size(); ++k) {
+      const FitParameter& p = all_.problem.parameters[static_cast<std::size_t>(k)];
+      out_ << "| " << code(p.name) << " | " << shown_value(r_.standard_error[k], p.unit, 2) << " | "
+           << shown_value(s.error[k], p.unit, 2) << " |\n";
+    }
+    out_ << '\n';
+    for (const std::string& w : s.words) out_ << "- " << w << "\n";
+    out_ << '\n';
   }
 
   void data() {

@@ -23,7 +23,8 @@ constexpr KindRow kinds[] = {{"fracture_energy", read_fracture_energy},
                              {"stress_strain", read_stress_strain},
                              {"notched_beam", read_notched_beam},
                              {"semicircular_bend", read_semicircular_bend},
-                             {"peak_load", read_peak_load}};
+                             {"peak_load", read_peak_load},
+                             {"scene", read_scene}};
 
 void read_loss(const Context& c, const Place& at, DataSet& out) {
   if (!c.reader.object(at, "\"kind\" and \"scale\"")) return;

@@ -26,6 +26,7 @@ void read_traction_separation(const SetContext& s, const Place& set, DataSet& ou
 void read_stress_strain(const SetContext& s, const Place& set, DataSet& out);
 void read_notched_beam(const SetContext& s, const Place& set, DataSet& out);
 void read_peak_load(const SetContext& s, const Place& set, DataSet& out);
+void read_scene(const SetContext& s, const Place& set, DataSet& out);
 void read_semicircular_bend(const SetContext& s, const Place& set, DataSet& out);
 
 /// The data set at `set`; nothing when there is a problem.

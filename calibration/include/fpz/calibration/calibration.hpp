@@ -64,6 +64,20 @@ struct ReferenceComparison {
   double relative = 0.0;  ///< fitted over reference, less 1
 };
 
+/// How the runs of scenes went.
+struct SceneFitSummary {
+  std::size_t runs = 0;       ///< parameter sets at which the scenes were run
+  std::size_t used = 0;       ///< of them, those that the last surface goes through
+  std::size_t failed = 0;     ///< those without a prediction
+  std::string first_failure;  ///< with its parameters
+  int rounds = 0;
+  std::size_t noise_runs = 0;         ///< runs that hardly differ
+  double scatter = 0.0;               ///< their standard deviation over the values, root mean squares
+  Eigen::VectorXd error;              ///< part of each unknown's standard error that comes from the runs
+  std::vector<std::string> words;     ///< a line per round
+  std::vector<std::string> warnings;  ///< what the particle program says of the run at the best values
+};
+
 struct Calibration {
   Specification specification;
   FitProblem problem;
@@ -72,12 +86,15 @@ struct Calibration {
   std::vector<Comparison> comparisons;  ///< in the order of the data sets
   std::vector<Derived> derived;
   std::vector<ReferenceComparison> references;
-  std::optional<TwoEnergies> energies;  ///< when a mode I and another fracture energy are given
-  std::vector<std::string> warnings;    ///< of reading, fit and model; one line each
+  std::optional<TwoEnergies> energies;    ///< when a mode I and another fracture energy are given
+  std::optional<SceneFitSummary> scenes;  ///< where data sets are scenes
+  std::vector<std::string> warnings;      ///< of reading, fit and model; one line each
 };
 
-/// Fits and evaluates. Throws std::invalid_argument for a problem that require_valid() refuses.
+/// Fits and evaluates; `run` makes the runs of scenes. Throws std::invalid_argument for a problem that require_valid()
+/// refuses, and for scenes without `run`.
 [[nodiscard]] Calibration calibrate(const Specification& specification,
-                                    const std::function<void(const FitProgress&)>& progress = {});
+                                    const std::function<void(const FitProgress&)>& progress = {},
+                                    const RunScenes& run = {});
 
 }  // namespace fpz::calibration

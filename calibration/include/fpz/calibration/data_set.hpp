@@ -13,6 +13,7 @@
 #include "fpz/calibration/fracture_energy_data.hpp"
 #include "fpz/calibration/notched_data.hpp"
 #include "fpz/calibration/peak_load.hpp"
+#include "fpz/calibration/scene_data.hpp"
 #include "fpz/calibration/strength.hpp"
 #include "fpz/calibration/stress_strain.hpp"
 #include "fpz/calibration/traction_separation.hpp"
@@ -42,8 +43,8 @@ struct fpz::Words<fpz::calibration::Role> {
 namespace fpz::calibration {
 
 /// What was tested: one struct per kind of test, from a header of its own.
-using TestData =
-    std::variant<FractureEnergyData, StrengthTest, TractionSeparationTest, StressStrainTest, NotchedData, PeakLoadTest>;
+using TestData = std::variant<FractureEnergyData, StrengthTest, TractionSeparationTest, StressStrainTest, NotchedData,
+                              PeakLoadTest, SceneData>;
 
 // What the kinds answer. Here are the answers of a kind that has none of its own; NotchedData and others that have
 // overload them in their headers.

@@ -77,6 +77,7 @@ struct FitProgress {
   std::string stage;      ///< "start 2 of 8", "profile of delta0", ...
   double fraction = 0.0;  ///< of this stage
   double cost = 0.0;
+  std::string detail = {};  ///< of stages that are more than numbers; shown in place of fraction and cost
 };
 
 struct FitOptions {
