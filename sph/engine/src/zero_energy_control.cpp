@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "across_crack.hpp"
 #include "chunks.hpp"
 #include "plane.hpp"
 
@@ -18,10 +17,6 @@ constexpr double control_smoothing = 1.0;
 /// A direction without bonds (moment below this part of the larger one) has no gradient, and needs none.
 constexpr double no_moment = 1e-9;
 
-/// Integrity 1 - D of a crack below which the bonds across it are cut, and how often that is looked at.
-constexpr double cut_integrity = 0.7;
-constexpr long long cut_interval = 16;
-
 }  // namespace
 
 template <int Dim>
@@ -31,20 +26,14 @@ ZeroEnergyControl<Dim>::ZeroEnergyControl(RunData<Dim>& run, double strength) : 
                                 kernel_support * control_smoothing * run.setup.arrangement.spacing);
   separate<Dim>(lists_, run.setup.arrangement.cuts, p.start);
   run.keep_apart(lists_);
+  bonds_ = pack<Dim>(lists_, p.padded(), Beside::a_number);
   fields(*this, Allocate{p.padded()});
   fields(*this, Point<Dim>{run.view});
-  make_bonds();
-  run.view.controlled = true;
-}
-
-template <int Dim>
-void ZeroEnergyControl<Dim>::make_bonds() {
-  const Particles<Dim>& p = run_.particles;
-  bonds_ = pack<Dim>(lists_, p.padded(), Beside::a_number);
-  AlikeBonds alike(run_.setup.arrangement.spacing);
+  AlikeBonds alike(run.setup.arrangement.spacing);
   for (std::size_t i = 0; i < p.count; ++i) write_row(i, alike);
   bonds_.share();
-  run_.view.control_bonds = bonds_.view();
+  run.view.control_bonds = bonds_.view();
+  run.view.controlled = true;
 }
 
 template <int Dim>
@@ -68,11 +57,6 @@ void ZeroEnergyControl<Dim>::write_row(std::size_t i, AlikeBonds& alike) {
     moment.yy += stiffness * ry * ry;
     moment.xy += stiffness * rx * ry;
   }
-  set_fit(i, moment);
-}
-
-template <int Dim>
-void ZeroEnergyControl<Dim>::set_fit(std::size_t i, const Symmetric& moment) {
   const Symmetric inverse = inverse_above(moment, no_moment);
   fit_[0][i] = inverse.xx;
   fit_[1][i] = inverse.yy;
@@ -101,109 +85,6 @@ void ZeroEnergyControl<Dim>::let_go(double step) {
     share_[i] = share;
     for (Field& g : gradient_) g[i] *= left;
   }
-  cut(step);
-}
-
-template <int Dim>
-void ZeroEnergyControl<Dim>::remove_from_row(std::size_t i, std::size_t j) {
-  const auto at = std::find(lists_[i].begin(), lists_[i].end(), static_cast<int>(j));
-  const std::size_t entry = bonds_.entry(i, static_cast<std::size_t>(at - lists_[i].begin()));
-  bonds_.beside[entry] = bonds_.weight[0][entry] = bonds_.weight[1][entry] = 0.0;
-}
-
-template <int Dim>
-void ZeroEnergyControl<Dim>::remove(const std::array<std::size_t, 2>& bond) {
-  for (const std::size_t i : bond) bonds_.own(i / lanes);
-  remove_from_row(bond[0], bond[1]);
-  remove_from_row(bond[1], bond[0]);
-}
-
-template <int Dim>
-void ZeroEnergyControl<Dim>::write_fit(std::size_t i) {
-  Symmetric moment = {0.0, 0.0, 0.0};
-  for (std::size_t k = 0; k < lists_[i].size(); ++k) {
-    const std::size_t entry = bonds_.entry(i, k);
-    const double stiffness = bonds_.beside[entry], x = bonds_.weight[0][entry], y = bonds_.weight[1][entry];
-    if (stiffness == 0.0) continue;
-    moment.xx += x * x / stiffness;
-    moment.yy += y * y / stiffness;
-    moment.xy += x * y / stiffness;
-  }
-  set_fit(i, moment);
-}
-
-template <int Dim>
-void ZeroEnergyControl<Dim>::write_gradient(std::size_t i) {
-  Full s = {0.0, 0.0, 0.0, 0.0};
-  for (std::size_t k = 0; k < lists_[i].size(); ++k) {
-    const auto j = static_cast<std::size_t>(lists_[i][k]);
-    const std::size_t entry = bonds_.entry(i, k);
-    const double ux = displacement_[0][j] - displacement_[0][i], uy = displacement_[1][j] - displacement_[1][i];
-    s.xx += ux * bonds_.weight[0][entry];
-    s.xy += ux * bonds_.weight[1][entry];
-    s.yx += uy * bonds_.weight[0][entry];
-    s.yy += uy * bonds_.weight[1][entry];
-  }
-  const Symmetric f = {share_[i] * fit_[0][i], share_[i] * fit_[1][i], share_[i] * fit_[2][i]};
-  gradient_[0][i] = s.xx * f.xx + s.xy * f.xy;
-  gradient_[1][i] = s.xx * f.xy + s.xy * f.yy;
-  gradient_[2][i] = s.yx * f.xx + s.yy * f.xy;
-  gradient_[3][i] = s.yx * f.xy + s.yy * f.yy;
-}
-
-template <int Dim>
-void ZeroEnergyControl<Dim>::find_bonds_across(std::size_t i, std::vector<std::array<std::size_t, 2>>& bonds) const {
-  for (std::size_t k = 0; k < lists_[i].size(); ++k) {
-    const auto j = static_cast<std::size_t>(lists_[i][k]);
-    if (bonds_.beside[bonds_.entry(i, k)] == 0.0 || !is_across_crack(run_.particles, i, j)) continue;
-    bonds.push_back({std::min(i, j), std::max(i, j)});
-  }
-}
-
-/// As in let_go(), the energy of the middle of the step is what is lost.
-template <int Dim>
-void ZeroEnergyControl<Dim>::cut(double step) {
-  if (!(run_.setup.options.release_integrity > 0.0) || run_.steps % cut_interval != 0) return;
-  std::vector<std::array<std::size_t, 2>> bonds;
-  for (const std::size_t i : run_.cracked) {
-    if (run_.particles.point[i].crack.integrity < cut_integrity) find_bonds_across(i, bonds);
-  }
-  if (bonds.empty()) return;
-  std::sort(bonds.begin(), bonds.end());
-  bonds.erase(std::unique(bonds.begin(), bonds.end()), bonds.end());
-  std::vector<std::size_t> rows;
-  for (const auto& bond : bonds) rows.insert(rows.end(), bond.begin(), bond.end());
-  std::sort(rows.begin(), rows.end());
-  rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
-  double& lost = run_.ledger.zero_energy;
-  for (const std::size_t i : rows) lost += stored_at(i, 0.5 * step);
-  for (const auto& bond : bonds) remove(bond);
-  for (const std::size_t i : rows) {
-    write_fit(i);
-    write_gradient(i);
-    lost -= stored_at(i, 0.5 * step);
-  }
-  cut_.insert(cut_.end(), bonds.begin(), bonds.end());
-}
-
-template <int Dim>
-void ZeroEnergyControl<Dim>::save(Writer& archive) const {
-  fields(*this, Transfer<Writer>{archive});
-  archive(cut_);
-}
-
-template <int Dim>
-void ZeroEnergyControl<Dim>::load(Reader& archive) {
-  fields(*this, Transfer<Reader>{archive});
-  archive(cut_);
-  make_bonds();
-  for (const auto& bond : cut_) {
-    const bool known = bond[0] < lists_.size() && bond[1] < lists_.size() &&
-                       std::binary_search(lists_[bond[0]].begin(), lists_[bond[0]].end(), static_cast<int>(bond[1]));
-    if (!known) throw ArchiveError("it has cut a bond that is none");
-    remove(bond);
-  }
-  for (const auto& bond : cut_) write_fit(bond[0]), write_fit(bond[1]);
 }
 
 template <int Dim>

@@ -2,11 +2,8 @@
 // particle to particle).
 #pragma once
 
-#include <array>
-
 #include "bonds.hpp"
 #include "boundary.hpp"
-#include "plane.hpp"
 
 namespace fpz::sph::detail {
 
@@ -18,17 +15,15 @@ namespace fpz::sph::detail {
 ///
 /// A particle loses its energy, and no other's, as its crack opens: all of it when it has opened by as much strain
 /// (D delta0/H) as the rock bears elastically (sigma_t0/E). What it held is dissipated. Its neighbours keep theirs,
-/// with the bonds to it, until the crack has half opened: so rows beside a crack cannot alternate, or crack in two
-/// places, row by row, with what is between them free. Then the bonds that cross it are cut: they would hold energy as
-/// the square of its opening.
+/// with the bonds to it: so rows beside a crack cannot alternate, or crack in two places, row by row, with what is
+/// between them free.
 template <int Dim>
 class ZeroEnergyControl {
  public:
   /// `strength`: stiffness in units of lambda + 2 mu, > 0.
   ZeroEnergyControl(RunData<Dim>& run, double strength);
 
-  /// Lets go where a crack has opened further, and of the bonds across it, in the step (s) to n, for which the loops
-  /// have moved the displacements.
+  /// Lets go where a crack has opened further in the step (s) to n, for which the loops have moved the displacements.
   void let_go(double step);
   /// Energy that it holds at n, J.
   [[nodiscard]] double stored() const;
@@ -46,39 +41,25 @@ class ZeroEnergyControl {
     visit(FieldInfo{"zero_energy_displacement", each, Keep::saved}, self.displacement_, &V::control_displacement);
     visit(FieldInfo{"zero_energy_gradient", each, Keep::saved}, self.gradient_, &V::control_gradient);
   }
-  void save(Writer& archive) const;
-  void load(Reader& archive);
+  void save(Writer& archive) const { fields(*this, Transfer<Writer>{archive}); }
+  void load(Reader& archive) { fields(*this, Transfer<Reader>{archive}); }
 
  private:
-  void make_bonds();
-  /// Cuts the bonds across cracks that have opened; what they held in the step (s) to n is dissipated.
-  void cut(double step);
-  /// Bonds from the cracked particle i across its crack.
-  void find_bonds_across(std::size_t i, std::vector<std::array<std::size_t, 2>>& bonds) const;
   /// Writes the stiffness of the bonds that particle i has, and what fits a gradient to them.
   void write_row(std::size_t i, AlikeBonds& alike);
-  /// Removes a bond from the rows of both ends.
-  void remove(const std::array<std::size_t, 2>& bond);
-  void remove_from_row(std::size_t i, std::size_t j);
-  void set_fit(std::size_t i, const Symmetric& moment);
-  /// What fits a gradient to the bonds that row i has.
-  void write_fit(std::size_t i);
-  /// The gradient of the displacements at n.
-  void write_gradient(std::size_t i);
   /// Part of its energy that is left to the cracked particle i with its damage and H.
   [[nodiscard]] double share_of(std::size_t i) const;
   /// Energy of a particle, J, `before` (s) the end of the step.
   [[nodiscard]] double stored_at(std::size_t i, double before) const;
 
   RunData<Dim>& run_;
-  double strength_;                              ///< stiffness in units of lambda + 2 mu
-  NeighbourLists lists_;                         ///< nearest neighbours at the start
-  Bonds<Dim> bonds_;                             ///< weight: k_ij r_ij, N; beside: k_ij, N/m
-  std::vector<std::array<std::size_t, 2>> cut_;  ///< bonds that are no more
-  Field share_;                                  ///< a_i: the least share_of() since the start
-  Fields<Dim*(Dim + 1) / 2> fit_;                ///< inverse of sum k_ij r_ij (x) r_ij, zero without a gradient
-  Fields<Dim> displacement_;                     ///< since the start: as a sum, without the rounding of positions
-  Fields<Dim * Dim> gradient_;                   ///< a_i G_i
+  double strength_;                ///< stiffness in units of lambda + 2 mu
+  NeighbourLists lists_;           ///< nearest neighbours at the start
+  Bonds<Dim> bonds_;               ///< weight: k_ij r_ij, N; beside: k_ij, N/m
+  Field share_;                    ///< a_i: the least share_of() since the start
+  Fields<Dim*(Dim + 1) / 2> fit_;  ///< inverse of sum k_ij r_ij (x) r_ij, zero without a gradient
+  Fields<Dim> displacement_;       ///< since the start: as a sum, without the rounding of positions
+  Fields<Dim * Dim> gradient_;     ///< a_i G_i
 };
 
 }  // namespace fpz::sph::detail
