@@ -36,9 +36,9 @@ std::string estimate_of_runs(const Specification& spec, int jobs) {
   for (const auto& [source, runs] : scenes) seconds += runs * detail::seconds_of({source, spec.start()});
   const double cores = jobs > 0 ? jobs : static_cast<double>(std::max(1U, std::thread::hardware_concurrency()));
   return std::to_string(scenes.size()) + (scenes.size() == 1 ? " scene" : " scenes") + ", some " +
-         detail::digits(std::round(points), 3) + " parameter sets to run: about " +
-         detail::digits(seconds / cores, 2) + " s or less on " + detail::digits(cores) +
-         (cores == 1.0 ? " core" : " cores") + " (runs end when the load has dropped)";
+         detail::digits(std::round(points), 3) + " parameter sets to run: about " + detail::digits(seconds / cores, 2) +
+         " s or less on " + detail::digits(cores) + (cores == 1.0 ? " core" : " cores") +
+         " (runs end when the load has dropped)";
 }
 
 }  // namespace fpz::calibration

@@ -16,14 +16,14 @@ namespace {
 using Vector = Eigen::VectorXd;
 
 constexpr int most_rounds = 15;
-constexpr double first_radius = 0.15;   ///< of the runs around the start, in coordinates: 15 %
+constexpr double first_radius = 0.15;  ///< of the runs around the start, in coordinates: 15 %
 constexpr double largest_radius = 0.3;
 constexpr double smallest_radius = 0.01;
-constexpr double noise_move = 0.002;    ///< of the runs that show the scatter
+constexpr double noise_move = 0.002;  ///< of the runs that show the scatter
 constexpr int noise_runs = 4;
-constexpr double signal_to_noise = 5.0; ///< of a change of one radius, at least
-constexpr double used_within = 1.25;    ///< radii: runs that the surface goes through
-constexpr double same_place = 0.2;      ///< radii: a run that near serves in place of another
+constexpr double signal_to_noise = 5.0;  ///< of a change of one radius, at least
+constexpr double used_within = 1.25;     ///< radii: runs that the surface goes through
+constexpr double same_place = 0.2;       ///< radii: a run that near serves in place of another
 
 /// One parameter vector at which all scenes of the fitted sets have been run.
 struct Trial {
@@ -240,13 +240,10 @@ class RunFit {
     }
     for (Eigen::Index k = 0; k < 1 + size() * (size() - 1) / 2; ++k) wanted.push_back(around(r));
     std::vector<Vector> points;
-    const auto near = [&](const Vector& a, const Vector& b) {
-      return largest((a - b).cwiseQuotient(r)) < same_place;
-    };
+    const auto near = [&](const Vector& a, const Vector& b) { return largest((a - b).cwiseQuotient(r)) < same_place; };
     for (const Vector& y : wanted) {
-      const bool there =
-          std::any_of(trials_.begin(), trials_.end(), [&](const Trial& t) { return near(t.y, y); }) ||
-          std::any_of(points.begin(), points.end(), [&](const Vector& p) { return near(p, y); });
+      const bool there = std::any_of(trials_.begin(), trials_.end(), [&](const Trial& t) { return near(t.y, y); }) ||
+                         std::any_of(points.begin(), points.end(), [&](const Vector& p) { return near(p, y); });
       if (!there) points.push_back(y);
     }
     if (round_ == 1) {
@@ -332,8 +329,7 @@ class RunFit {
     for (const std::size_t k : fitted_) {
       const DataSet& set = given_.data[k];
       const Eigen::Index n = set.measured.size();
-      sum += set.weight *
-             (values.segment(at, n) - set.measured).cwiseQuotient(d.segment(at, n)).squaredNorm();
+      sum += set.weight * (values.segment(at, n) - set.measured).cwiseQuotient(d.segment(at, n)).squaredNorm();
       at += n;
     }
     return sum;
@@ -446,8 +442,7 @@ class RunFit {
     Vector out = Vector::Zero(r.values.size());
     Parameters p = given_.start();
     for (Eigen::Index j = 0; j < size(); ++j) {
-      p.*parameter_info[static_cast<std::size_t>(coordinates_[static_cast<std::size_t>(j)].place)].member =
-          r.values[j];
+      p.*parameter_info[static_cast<std::size_t>(coordinates_[static_cast<std::size_t>(j)].place)].member = r.values[j];
     }
     const Prediction x = predict(surface, p, true);
     if (!x.ok()) return out;
@@ -456,8 +451,8 @@ class RunFit {
     for (const std::size_t k : fitted_) {
       const DataSet& set = given_.data[k];
       const Eigen::Index n = set.measured.size();
-      const Vector weighted = set.weight * (x.values.segment(at, n) - set.measured)
-                                               .cwiseQuotient(d.segment(at, n).cwiseAbs2());
+      const Vector weighted =
+          set.weight * (x.values.segment(at, n) - set.measured).cwiseQuotient(d.segment(at, n).cwiseAbs2());
       for (Eigen::Index j = 0; j < size(); ++j) {
         out[j] += x.jacobian.col(coordinates_[static_cast<std::size_t>(j)].place).segment(at, n).dot(weighted);
       }

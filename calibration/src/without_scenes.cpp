@@ -8,7 +8,8 @@ namespace {
 
 [[noreturn]] void refuse() {
   throw io::InputError(
-      "data of the kind \"scene\" need the particle method, and this fpz-calibrate was built without it: configure with "
+      "data of the kind \"scene\" need the particle method, and this fpz-calibrate was built without it: configure "
+      "with "
       "-DFPZ_BUILD_SPH=ON");
 }
 

@@ -12,7 +12,7 @@
 namespace fpz::report {
 namespace {
 
-constexpr const char* sides[] = {"before", "after", "after at 2 mm"};  // series of the sweeps, those that they have
+constexpr const char* sides[] = {"before", "after", "after at 2.667 mm", "after at 2 mm"};  // series of the sweeps
 
 /// Width of a polygon at its waist, which is symmetric about x = 0, m.
 double waist(const specimen::Scene& scene) {

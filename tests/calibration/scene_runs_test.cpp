@@ -150,12 +150,13 @@ TEST(SceneRuns, ParametersComeBack) {
   ASSERT_TRUE(read.ok()) << read.failure;
   for (const double x : read.values) loads += (loads.empty() ? "" : ", ") + std::to_string(x);
   std::string text = specification(R"("measured": "load", "deviation": 1,
-      "values": {"deflection": {"unit": "um", "list": [)" + deflections + R"(]}, "load": [)" + loads + "]}");
+      "values": {"deflection": {"unit": "um", "list": [)" +
+                                   deflections + R"(]}, "load": [)" + loads + "]}");
   const std::string end = "]}";
-  text.insert(text.size() - end.size(),
-              R"(, {"name": "peak", "kind": "scene", "scene": )" + quoted((data / "scenes/scb.json").string()) +
-                  R"(, "set": )" + coarse + R"(, "deviation": 2, "points": [{"largest": )" +
-                  std::to_string(largest_load(made)) + "}]}");
+  text.insert(text.size() - end.size(), R"(, {"name": "peak", "kind": "scene", "scene": )" +
+                                            quoted((data / "scenes/scb.json").string()) + R"(, "set": )" + coarse +
+                                            R"(, "deviation": 2, "points": [{"largest": )" +
+                                            std::to_string(largest_load(made)) + "}]}");
   const Calibration c = calibrate(parse_specification(text, "spec.json"), {}, run);
   ASSERT_TRUE(c.result.usable()) << c.result.message;
   EXPECT_NEAR(c.parameters.young_modulus, 0.4e9, std::max(0.5 * c.result.standard_error[0], 1e6));

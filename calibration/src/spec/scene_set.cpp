@@ -61,7 +61,8 @@ void read_changes(const Context& c, const Place& object, SceneSource& source) {
   if (!c.reader.object(at, "entries of the scene, such as \"notches[0].angle_deg\": 30")) return;
   for (const JsonValue& member : set->items) {
     if (member.key == "material" || member.key.starts_with("material.")) {
-      c.problem(Place(at, member), "the material of the scene is the one that is fitted: state it in the specification");
+      c.problem(Place(at, member),
+                "the material of the scene is the one that is fitted: state it in the specification");
       continue;
     }
     source.changes.push_back(member.key + "=" + json_text(member));
@@ -122,8 +123,8 @@ void read_scene_curve(const SetContext& s, const Place& set, const SceneFacts& f
   const auto abscissa = std::find_if(facts.columns.begin(), facts.columns.end(),
                                      [&](const SceneColumn& column) { return column.name == wanted[0].name; });
   for (const double x : out.abscissa) {
-    data.values.push_back({0, facts.columns[*measured].name, abscissa->name, x,
-                           si_unit(facts.columns[*measured].quantity)});
+    data.values.push_back(
+        {0, facts.columns[*measured].name, abscissa->name, x, si_unit(facts.columns[*measured].quantity)});
   }
   out.abscissa_axis = axis_of(*abscissa, out.abscissa.cwiseAbs().maxCoeff());
   out.value_axis = axis_of(facts.columns[*measured], out.measured.cwiseAbs().maxCoeff());
@@ -193,8 +194,8 @@ void read_points(const SetContext& s, const Place& set, const SceneSource& base,
     c.problem(set, "missing key \"deviation\": from a single value no scatter can be estimated");
   }
   if (alike) {
-    out.value_axis = readable_axis(out.value_axis.label, io::quantity_of(data.values.front().si_unit),
-                                   out.measured.maxCoeff());
+    out.value_axis =
+        readable_axis(out.value_axis.label, io::quantity_of(data.values.front().si_unit), out.measured.maxCoeff());
   }
   out.test = std::move(data);
 }
