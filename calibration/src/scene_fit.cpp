@@ -128,14 +128,15 @@ class RunFit {
     return n;
   }
 
-  [[nodiscard]] Parameters parameters_of(const Vector& y) const {
+  /// The first of `values` are those of the parameters that are fitted.
+  [[nodiscard]] Parameters parameters_with(const Vector& values) const {
     Parameters p = given_.start();
     for (std::size_t j = 0; j < coordinates_.size(); ++j) {
-      p.*parameter_info[static_cast<std::size_t>(coordinates_[j].place)].member =
-          coordinates_[j].value(y[static_cast<Eigen::Index>(j)]);
+      p.*parameter_info[static_cast<std::size_t>(coordinates_[j].place)].member = values[static_cast<Eigen::Index>(j)];
     }
     return p;
   }
+  [[nodiscard]] Parameters parameters_of(const Vector& y) const { return parameters_with(values_at(y)); }
 
   [[nodiscard]] Vector coordinates_of(const Vector& values) const {
     Vector y(size());
@@ -440,11 +441,7 @@ class RunFit {
   /// d cost / d unknown of the fitted scene sets, at r.values.
   [[nodiscard]] Vector gradient(const FitResult& r, const ResponseSurface& surface) const {
     Vector out = Vector::Zero(r.values.size());
-    Parameters p = given_.start();
-    for (Eigen::Index j = 0; j < size(); ++j) {
-      p.*parameter_info[static_cast<std::size_t>(coordinates_[static_cast<std::size_t>(j)].place)].member = r.values[j];
-    }
-    const Prediction x = predict(surface, p, true);
+    const Prediction x = predict(surface, parameters_with(r.values), true);
     if (!x.ok()) return out;
     const Vector d = deviations(r, given_);
     Eigen::Index at = 0;

@@ -1,7 +1,7 @@
 #include "fpz/calibration/scene_runs.hpp"
 
 #include <algorithm>
-#include <cstdint>
+#include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <map>
@@ -15,6 +15,7 @@
 #include "fpz/io/output.hpp"
 #include "fpz/specimen/estimate.hpp"
 #include "fpz/specimen/sweep.hpp"
+#include "fpz/sph/archive.hpp"
 #include "scene_program.hpp"
 
 namespace fpz::calibration {
@@ -24,27 +25,22 @@ namespace fs = std::filesystem;
 
 // ---- Names of runs: what they are of and what made them
 
-/// FNV-1a, 64 bits.
-std::uint64_t fingerprint(std::string_view bytes, std::uint64_t hash = 0xcbf29ce484222325U) {
-  for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
-  return hash;
-}
-
-std::string bytes_of(const fs::path& file) {
+std::string content_of(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-std::string hexadecimal(std::uint64_t x) {
+/// Of any bytes, in hexadecimal digits.
+std::string fingerprint(std::string_view bytes) {
   char text[17];
-  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(x));
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(sph::fnv1a(sph::bytes_of(bytes))));
   return text;
 }
 
 /// This program: another one may give other results for the same scene.
-std::uint64_t program() {
-  static const std::uint64_t hash = fingerprint(bytes_of("/proc/self/exe"), fingerprint(FPZ_VERSION));
-  return hash;
+const std::string& program() {
+  static const std::string name = fingerprint(FPZ_VERSION + content_of("/proc/self/exe"));
+  return name;
 }
 
 // ---- Scenes with the material of the calibration
@@ -67,12 +63,12 @@ fs::path seal_of(const fs::path& folder) { return folder / "seal.txt"; }
 
 /// A seal tells that the history is whole and as it was written.
 std::string seal_text(const fs::path& folder) {
-  return "history.csv " + hexadecimal(fingerprint(bytes_of(specimen::RunFiles(folder).history))) + "\n";
+  return "history.csv " + fingerprint(content_of(specimen::RunFiles(folder).history)) + "\n";
 }
 
 bool is_sealed(const fs::path& folder) {
   std::error_code ignored;
-  return fs::exists(seal_of(folder), ignored) && bytes_of(seal_of(folder)) == seal_text(folder);
+  return fs::exists(seal_of(folder), ignored) && content_of(seal_of(folder)) == seal_text(folder);
 }
 
 /// A run that is finished without a good seal is damaged: it is removed, to be made again.
@@ -90,7 +86,7 @@ SceneOutcome outcome_in(const fs::path& folder) {
   io::Table table = io::read_csv(files.history);
   out.columns = std::move(table.names);
   out.readings = std::move(table.columns);
-  const nlohmann::json summary = nlohmann::json::parse(bytes_of(files.summary), nullptr, false);
+  const nlohmann::json summary = nlohmann::json::parse(content_of(files.summary), nullptr, false);
   if (!summary.is_object()) return out;
   out.ending = summary.value("reason", "");
   for (const auto& w : summary.value("warnings", nlohmann::json::array())) {
@@ -119,7 +115,7 @@ class Runner {
         out[k].failure = e.what();
         continue;
       }
-      const std::string folder = hexadecimal(fingerprint(scene.text, program()));
+      const std::string folder = fingerprint(scene.text + program());
       const auto [at, is_new] = rows.emplace(folder, sweep.runs.size());
       row_of[k] = at->second;
       if (!is_new) continue;

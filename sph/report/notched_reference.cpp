@@ -6,6 +6,7 @@
 
 #include "fpz/io/problems.hpp"
 #include "fpz/parameters.hpp"
+#include "fpz/specimen/history.hpp"
 
 namespace fpz::report {
 namespace {
@@ -92,7 +93,9 @@ BeamErrors beam_errors(const Run& run) {
   e.peak = run.figure("peak_load") / fe.peak - 1.0;
   e.stiffness = run.figure("stiffness") / fe.stiffness - 1.0;
   e.notch_stiffness = notch_stiffness(run) / fe.notch_stiffness - 1.0;
-  e.work = work_until(end, way, load) / work_until(end, fe.curve.deflection_mid_depth, fe.curve.load) - 1.0;
+  e.work =
+      specimen::work_until(end, way, load) / specimen::work_until(end, fe.curve.deflection_mid_depth, fe.curve.load) -
+      1.0;
   return e;
 }
 

@@ -63,12 +63,4 @@ ReferenceCurve read_reference_curve(const std::filesystem::path& file, const std
   return {t.at("load"), t.at("cmod"), t.at("deflection_mid_depth")};
 }
 
-double work_until(double end, const std::vector<double>& way, const std::vector<double>& load) {
-  double work = 0.0;
-  for (std::size_t k = 1; k < load.size() && way[k - 1] < end; ++k) {
-    work += 0.5 * (load[k] + load[k - 1]) * (std::min(way[k], end) - way[k - 1]);
-  }
-  return work;
-}
-
 }  // namespace fpz::report

@@ -28,7 +28,4 @@ struct ReferenceCurve {
 [[nodiscard]] ReferenceCurve read_reference_curve(const std::filesystem::path& file,
                                                   const std::vector<Condition>& wanted);
 
-/// Work of a load (N) along a way (m) up to `end` (m), J; the last step counts as far as it goes.
-[[nodiscard]] double work_until(double end, const std::vector<double>& way, const std::vector<double>& load);
-
 }  // namespace fpz::report

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reference_curve.hpp"
+#include "fpz/specimen/history.hpp"
 #include "sections.hpp"
 #include "text.hpp"
 
@@ -27,23 +27,23 @@ double all_steps(const Run& run) {
   }
 }
 
+double largest(const io::Table& t, const char* column) {
+  return *std::max_element(t.at(column).begin(), t.at(column).end());
+}
+
 double work_to_common_end(const io::Table& of, const io::Table& with) {
-  const auto end = [](const io::Table& t) {
-    return *std::max_element(t.at("deflection").begin(), t.at("deflection").end());
-  };
-  return work_until(std::min(end(of), end(with)), of.at("deflection"), of.at("load"));
+  const double end = std::min(largest(of, "deflection"), largest(with, "deflection"));
+  return specimen::work_until(end, of.at("deflection"), of.at("load"));
 }
 
 /// The first run of the sweep is the slow one.
 std::vector<SolverRun> compare(const SweepRuns& sweep) {
   std::vector<SolverRun> list;
   const io::Table slow = sweep.runs.front().history();
-  const double peak = *std::max_element(slow.at("load").begin(), slow.at("load").end());
   for (const Run& run : sweep.runs) {
     const io::Table t = run.history();
-    const double own = *std::max_element(t.at("load").begin(), t.at("load").end());
-    list.push_back(
-        {&run, all_steps(run), own / peak - 1.0, work_to_common_end(t, slow) / work_to_common_end(slow, t) - 1.0});
+    list.push_back({&run, all_steps(run), largest(t, "load") / largest(slow, "load") - 1.0,
+                    work_to_common_end(t, slow) / work_to_common_end(slow, t) - 1.0});
   }
   return list;
 }

@@ -106,6 +106,7 @@ void transfer_run(A& archive, R& run) {
 
 template <int Dim>
 void Engine<Dim>::save(Writer& archive) const {
+  body->show();
   transfer_run(archive, run);
   run.materials.save(archive);
   body->save(archive);
@@ -136,7 +137,6 @@ template <int Dim>
 std::vector<unsigned char> Simulation<Dim>::snapshot() const {
   Writer w(magic);
   w(fingerprint(engine_->run.setup));
-  engine_->body->show();
   engine_->save(w);
   return std::move(w).sealed();
 }

@@ -69,7 +69,6 @@ template <int Dim>
 double Engine<Dim>::stability_limit() {
   constexpr std::uint64_t own = 0;  // the bytes are for no one else
   Writer before(own);
-  body->show();
   save(before);
   const std::vector<unsigned char> state = std::move(before).sealed();
   const double body_limit = 2.0 / largest_frequency();

@@ -20,11 +20,16 @@ double first_pace(const Scene& scene) {
   return std::max(scene.stop.time / (swings * time_constant({}, scene)), least_halvings * scene.solver.slowest);
 }
 
-double largest(const History& h, std::string_view column) {
-  double x = 0.0;
-  for (std::size_t k = 0; k < h.rows(); ++k) x = std::max(x, h.at(k, column));
-  return x;
-}
+/// What is compared of a run.
+struct Curve {
+  std::vector<double> deflection, load;
+
+  [[nodiscard]] double peak() const { return *std::max_element(load.begin(), load.end()); }
+  [[nodiscard]] double end() const { return *std::max_element(deflection.begin(), deflection.end()); }
+  [[nodiscard]] double work_to(double deflection_at_end) const {
+    return work_until(deflection_at_end, deflection, load);
+  }
+};
 
 double relative_change(double from, double to) { return to > 0.0 ? std::abs(to - from) / to : std::nan(""); }
 
@@ -71,19 +76,20 @@ class Runs {
 
   void judge(double pace, RunResult& result) {
     const History& h = result.history;
+    Curve curve{h.all("deflection"), h.all("load")};
     ConvergenceRun run;
     run.pace = pace;
     run.steps = static_cast<long long>(h.last("step"));
     run.seconds = result.seconds.all;
     run.failed = result.ending == Ending::failed;
-    run.peak_load = largest(h, "load");
+    run.peak_load = curve.peak();
     if (!runs_.empty() && !runs_.back().failed && !run.failed) {
-      const double common = std::min(largest(h, "deflection"), largest(last_, "deflection"));
+      const double common = std::min(curve.end(), last_.end());
       run.change_of_peak = relative_change(runs_.back().peak_load, run.peak_load);
-      run.change_of_work = relative_change(work_to(last_, common), work_to(h, common));
+      run.change_of_work = relative_change(last_.work_to(common), curve.work_to(common));
     }
     runs_.push_back(run);
-    last_ = h;
+    last_ = std::move(curve);
     io::write_text(history_of_run(request_.folder, runs_.size() - 1), h.to_csv(), true);
     write_table();
     result.convergence = runs_;
@@ -130,11 +136,7 @@ class Runs {
       throw io::InputError(table_.string() + ": these runs have come to their end; there is nothing to resume");
     if (runs_.empty()) return;
     const io::Table h = io::read_csv(history_of_run(request_.folder, runs_.size() - 1));
-    last_.columns = {"deflection", "load"};
-    for (std::size_t k = 0; k < h.at("load").size(); ++k) {
-      last_.values.push_back(h.at("deflection")[k]);
-      last_.values.push_back(h.at("load")[k]);
-    }
+    last_ = {h.at("deflection"), h.at("load")};
   }
 
   const Scene& scene_;
@@ -142,7 +144,7 @@ class Runs {
   const RunOnce& run_once_;
   fs::path table_;
   std::vector<ConvergenceRun> runs_;
-  History last_;  ///< of the last run
+  Curve last_;  ///< of the last run
 };
 
 }  // namespace
@@ -158,18 +160,6 @@ void forget_runs(const fs::path& folder) {
   fs::remove(convergence_table(folder), ignored);
   for (std::size_t n = 0; fs::remove(history_of_run(folder, n), ignored); ++n) {
   }
-}
-
-double work_to(const History& h, double deflection) {
-  double work = 0.0;
-  for (std::size_t k = 1; k < h.rows(); ++k) {
-    const double from = h.at(k - 1, "deflection"), to = h.at(k, "deflection");
-    const double part = to > deflection ? (deflection - from) / (to - from) : 1.0;
-    const double p0 = h.at(k - 1, "load"), p1 = h.at(k, "load");
-    work += 0.5 * part * (to - from) * (2.0 * p0 + part * (p1 - p0));
-    if (to > deflection) break;
-  }
-  return work;
 }
 
 RunResult run_to_convergence(const Scene& scene, const RunRequest& request, const RunOnce& run_once) {

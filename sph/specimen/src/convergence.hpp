@@ -19,7 +19,4 @@ using RunOnce = std::function<RunResult(const Scene&, const RunRequest&, const s
 /// Removes them, of an earlier run in the folder.
 void forget_runs(const std::filesystem::path& folder);
 
-/// The area under the curve of load over deflection up to a deflection (m), J.
-[[nodiscard]] double work_to(const History& history, double deflection);
-
 }  // namespace fpz::specimen::detail

@@ -44,9 +44,7 @@ StepUse PaceKeeper::after_step(sph::Simulation<2>& run) {
 
 /// Smoothly to the pace that is wanted.
 void PaceKeeper::run_up(sph::Simulation<2>& run) {
-  const double x = std::min(1.0, static_cast<double>(run.steps()) * run.time_step() / swing_);
-  const double least = std::min(1.0, solver_.pace);
-  run.set_pace(least + (solver_.pace - least) * x * x * (3.0 - 2.0 * x));
+  run.set_pace(sph::TimeTable::rise(std::min(1.0, solver_.pace), solver_.pace, swing_).at(run.time()));
 }
 
 bool PaceKeeper::looks(const sph::Simulation<2>& run) {

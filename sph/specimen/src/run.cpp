@@ -106,8 +106,8 @@ class Runner {
   }
 
   /// Rows are at even distances of the loading.
-  [[nodiscard]] bool row_is_due(long long loaded) {
-    const long long row = loaded / schedule_.row_every;
+  [[nodiscard]] bool row_is_due() {
+    const long long row = run_.loading_steps() / schedule_.row_every;
     if (row == last_row_) return false;
     last_row_ = row;
     return true;
@@ -120,7 +120,6 @@ class Runner {
     const sph::Outcome outcome = run_.step();
     stepping_seconds_ += seconds_since(before);
     ++steps_here_;
-    const long long loaded = run_.loading_steps();
     if (!outcome.ok()) {
       result.ending = Ending::failed;
       result.reason = outcome.message();
@@ -128,7 +127,7 @@ class Runner {
     }
     const StepUse use = pace_.after_step(run_);
     if (use.in_row) recorder_.accumulate(run_);
-    if (use.equilibrium || (!pace_.makes_rows() && row_is_due(loaded))) {
+    if (use.equilibrium || (!pace_.makes_rows() && row_is_due())) {
       recorder_.add_row(run_);
       frames_.after_row(run_, recorder_);
       bool changed = false;

@@ -31,30 +31,15 @@ RunSetup<2> cut_block(int columns, int rows, double friction, double slot = 0.0)
   return s;
 }
 
-void hold_ends(RunSetup<2>& s, double height, const Group<2>& top) {
-  add_group(s, {"bottom", {Motion{}, Motion{}}, true}, [](const Vector& x) { return x[1] < 2.0 * spacing; });
-  add_group(s, top, [=](const Vector& x) { return x[1] > height - 2.0 * spacing; });
-}
-
 /// Mean force by which the top is held during the last `part` of the time.
-Vector mean_force(Simulation<2>& run, double time, double part = 0.2) {
-  Vector sum = vec(0.0, 0.0);
-  double count = 0.0;
-  while (run.time() < time) {
-    const Outcome o = run.step();
-    EXPECT_TRUE(o.ok()) << o.message();
-    if (!o.ok()) break;
-    if (run.time() < (1.0 - part) * time) continue;
-    sum += run.reaction(1);
-    count += 1.0;
-  }
-  return sum / count;
+Vector force_at_end(Simulation<2>& run, double time, double part = 0.2) {
+  return mean_force(run, (1.0 - part) * time, time);
 }
 
 double force_between_platens(RunSetup<2> s, double speed) {
   hold_ends(s, 40.0 * spacing, {"top", {std::nullopt, Motion{speed, 2e-4}}, true});
   Simulation<2> run(s);
-  return mean_force(run, 1e-3)[1];
+  return force_at_end(run, 1e-3)[1];
 }
 
 TEST(Contact, AClosedCutIsAsStiffAsNone) {
@@ -112,7 +97,7 @@ TEST(Contact, SlidesAtItsFriction) {
     const Energies e = run.energies();
     EXPECT_NEAR(e.friction - before, work - (e.elastic - sheared), 0.01 * work);
     EXPECT_LT(std::abs(e.error()), 1e-9 * e.external);
-    const Vector force = mean_force(run, 1.5 * time);
+    const Vector force = force_at_end(run, 1.5 * time);
     EXPECT_NEAR(force[0], -friction * force[1], 0.005 * force[0]);
   }
 }
@@ -284,7 +269,7 @@ TEST(Contact, FacesThatSlideFarMeetWhatIsOpposite) {
   top.drive[1] = Drive(Drive::Kind::force, TimeTable::rise(0.0, -force, 2e-4));
   hold_ends(s, 12.0 * spacing, top);
   Simulation<2> run(s);
-  const Vector mean = mean_force(run, 1.9e-3, 0.1);
+  const Vector mean = force_at_end(run, 1.9e-3, 0.1);
   EXPECT_NEAR(mean[0], friction * force, 0.01 * friction * force);
   const Particles<2>& p = run.particles();
   double slid = 0.0, uncovered = 0.0, covered = 0.0;

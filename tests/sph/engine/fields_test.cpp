@@ -132,7 +132,6 @@ TEST(StabilityLimit, LeavesTheStateAsItWas) {
     const RunSetup<2> s = torn(v);
     Engine<2> e(s, time_step(s));
     advance(e, 150);
-    e.body->show();  // what the loops do not store in every step is made from the rest
     const std::vector<unsigned char> before = saved(e);
     EXPECT_GT(e.stability_limit(), 0.0);
     EXPECT_EQ(saved(e), before);

@@ -93,25 +93,10 @@ TEST(Meeting, ObliqueCollisionKeepsMomentumSpinAndEnergy) {
 }
 
 /// The lower block rests on its lowest rows; the upper one is driven down by what `top` says.
-void hold(RunSetup<2>& s, int rows, const Group<2>& top) {
-  const double height = 2.0 * rows * spacing + apart;
-  add_group(s, {"bottom", {Motion{}, Motion{}}, true}, [](const Vector& x) { return x[1] < 2.0 * spacing; });
-  add_group(s, top, [=](const Vector& x) { return x[1] > height - 2.0 * spacing; });
-}
+void hold(RunSetup<2>& s, int rows, const Group<2>& top) { hold_ends(s, 2.0 * rows * spacing + apart, top); }
 
 /// Mean force by which the top is held between now and `time`.
-Vector mean_force(Simulation<2>& run, double time) {
-  Vector sum = vec(0.0, 0.0);
-  double count = 0.0;
-  while (run.time() < time) {
-    const Outcome o = run.step();
-    EXPECT_TRUE(o.ok()) << o.message();
-    if (!o.ok()) break;
-    sum += run.reaction(1);
-    count += 1.0;
-  }
-  return sum / count;
-}
+Vector mean_force_until(Simulation<2>& run, double time) { return mean_force(run, run.time(), time); }
 
 void advance_to(Simulation<2>& run, double time) {
   while (run.time() < time) advance(run, 1);
@@ -134,7 +119,7 @@ TEST(Meeting, ABlockThatLandsBears) {
     hold(s, rows, {"top", {Motion{}, way}, true});
     Simulation<2> run(s);
     advance_to(run, 1.6e-3);
-    const Vector force = mean_force(run, 1.8e-3);
+    const Vector force = mean_force_until(run, 1.8e-3);
     // Between even and confined by the platens.
     const double area = columns * spacing, free = 2.0 * (rows - 2) * spacing, nu = s.parameters.poisson_ratio;
     const double stiffness = s.parameters.young_modulus / (1.0 - nu * nu) * area / free;
@@ -164,7 +149,7 @@ TEST(Meeting, ABlockSlidesOffAnother) {
   run.set_drive(1, 0, Drive(Drive::Kind::velocity, starting(1.8e-3, TimeTable::rise(0.0, 4.0, 4e-4))));
   advance_to(run, 2.4e-3);
   const double before = run.energies().friction;
-  const Vector mean = mean_force(run, 3.2e-3);  // slides by 3.2 spacings
+  const Vector mean = mean_force_until(run, 3.2e-3);  // slides by 3.2 spacings
   // Damping resists the motion as a whole too, but takes nothing from the friction.
   EXPECT_NEAR(mean[1], -force, 0.01 * force);
   EXPECT_NEAR(run.energies().friction - before, friction * force * 3.2 * spacing,
@@ -211,7 +196,7 @@ TEST(Meeting, DiscsTouchAsWideAsHertzSays) {
   add_group(s, {"top", {Motion{}, way}, true}, [&](const Vector& x) { return x[1] > depth + gap - 2.0 * spacing; });
   Simulation<2> run(s);
   advance_to(run, 8e-4);
-  const double force = -mean_force(run, 8.5e-4)[1];
+  const double force = -mean_force_until(run, 8.5e-4)[1];
   const Particles<2>& p = run.particles();
   double sum = 0.0, square = 0.0;
   for (std::size_t i = 0; i < p.count; ++i) {
@@ -248,7 +233,7 @@ TEST(Meeting, ABrokenPieceLandsElsewhere) {
   EXPECT_LT(run.energies().contact, 1e-4 * run.energies().fracture);
   advance_to(run, 3.95e-3);
   // Ten columns bear, more than sixteen did in tension; their rough faces are crushed.
-  EXPECT_GT(-mean_force(run, 4e-3)[1], 16.0 * spacing * s.parameters.tensile_strength);
+  EXPECT_GT(-mean_force_until(run, 4e-3)[1], 16.0 * spacing * s.parameters.tensile_strength);
   EXPECT_LT(run.overlap(), 0.02 * spacing);
   EXPECT_LT(std::abs(run.energies().error()), 0.01 * run.energies().external);
   std::printf("force %.4g N, overlap %.3g um, error %.3g of the work\n", -run.reaction(1)[1], 1e6 * run.overlap(),

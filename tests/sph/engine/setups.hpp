@@ -115,4 +115,26 @@ inline RunSetup<2> torn(const Variant& v) {
   return notched;
 }
 
+/// The lowest two rows rest, the highest two of a body of this height (m) follow `top`: groups 0 and 1.
+inline void hold_ends(RunSetup<2>& s, double height, const Group<2>& top) {
+  const double rows = 2.0 * s.arrangement.spacing;
+  add_group(s, {"bottom", {Motion{}, Motion{}}, true}, [=](const Vector& x) { return x[1] < rows; });
+  add_group(s, top, [=](const Vector& x) { return x[1] > height - rows; });
+}
+
+/// Mean force by which group 1 is held between two times, s.
+inline Vector mean_force(Simulation<2>& run, double from, double until) {
+  Vector sum = vec(0.0, 0.0);
+  double count = 0.0;
+  while (run.time() < until) {
+    const Outcome o = run.step();
+    EXPECT_TRUE(o.ok()) << o.message();
+    if (!o.ok()) break;
+    if (run.time() < from) continue;
+    sum += run.reaction(1);
+    count += 1.0;
+  }
+  return sum / count;
+}
+
 }  // namespace fpz::sph::test

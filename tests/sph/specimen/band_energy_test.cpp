@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "fpz/specimen/crack.hpp"
+#include "fpz/specimen/history.hpp"
 #include "fpz/specimen/specimen.hpp"
 #include "reference_curve.hpp"
 
@@ -41,7 +42,7 @@ TEST(BandEnergy, TheBeamTakesTheWorkOfFiniteElements) {
   constexpr double end = 60e-6;
   const std::filesystem::path data = FPZ_DATA_DIR;
   const auto curve = fpz::report::read_reference_curve(data / "reference/beam_3pb_rollers_8mm.csv", {});
-  const double expected = fpz::report::work_until(end, curve.deflection_mid_depth, curve.load);
+  const double expected = fpz::specimen::work_until(end, curve.deflection_mid_depth, curve.load);
   for (const std::string arrangement : {R"({"type": "lattice"})", R"({"type": "lattice", "angle_deg": 45})",
                                         R"({"type": "scattered", "seed": 1})", R"({"type": "scattered", "seed": 4})"}) {
     const Scene scene =
@@ -56,7 +57,7 @@ TEST(BandEnergy, TheBeamTakesTheWorkOfFiniteElements) {
       deflection.push_back(specimen.gauges.at("deflection").value(run, scene.thickness));
       load.push_back(specimen.gauges.at("load").value(run, scene.thickness));
     }
-    EXPECT_NEAR(fpz::report::work_until(end, deflection, load) / expected, 1.0, 0.05) << arrangement;
+    EXPECT_NEAR(fpz::specimen::work_until(end, deflection, load) / expected, 1.0, 0.05) << arrangement;
   }
 }
 

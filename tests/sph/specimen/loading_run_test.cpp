@@ -6,6 +6,7 @@
 
 #include "fpz/io/input_error.hpp"
 #include "fpz/specimen/run.hpp"
+#include "run_to_end.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace {
@@ -25,16 +26,7 @@ std::string plate(const std::string& more, const std::string& shape = R"({"type"
 
 /// To its end, interrupted every so many steps (0: never).
 RunResult run(const Scene& scene, const std::string& folder, long long steps = 0) {
-  RunRequest request;
-  request.folder = fpz::test::fresh_path(folder);
-  request.most_steps = steps;
-  request.threads = 1;
-  RunResult r = run_scene(scene, request);
-  while (r.ending == Ending::interrupted) {
-    request.resume = true;
-    r = run_scene(scene, request);
-  }
-  return r;
+  return fpz::test::run_to_end(scene, fpz::test::fresh_path(folder), steps);
 }
 
 RunResult run(const std::string& text, const std::string& folder, long long steps = 0) {

@@ -5,11 +5,13 @@
 
 #include "fpz/io/csv.hpp"
 #include "fpz/io/input_error.hpp"
-#include "shipped.hpp"
+#include "run_to_end.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace {
 
 using namespace fpz::specimen;
+using fpz::test::run_to_end;
 namespace fs = std::filesystem;
 
 /// A plate 40 x 20 mm too strong to crack, pulled slowly at one end, 2 mm particles.
@@ -27,21 +29,8 @@ std::string pulled(const std::string& drive, const std::string& more) {
          more + "}";
 }
 
-RunResult run(const Scene& scene, const fs::path& folder, long long steps = 0) {
-  RunRequest request;
-  request.folder = folder;
-  request.most_steps = steps;
-  request.threads = 1;
-  RunResult r = run_scene(scene, request);
-  while (r.ending == Ending::interrupted) {
-    request.resume = true;
-    r = run_scene(scene, request);
-  }
-  return r;
-}
-
 RunResult run(const std::string& text, const std::string& folder) {
-  return run(parse_scene(text, "/elsewhere/scene.json"), fpz::test::fresh_path(folder));
+  return run_to_end(parse_scene(text, "/elsewhere/scene.json"), fpz::test::fresh_path(folder));
 }
 
 std::string complaint(const std::string& text) {
@@ -153,9 +142,9 @@ TEST(Solver, ConvergedComesToTheSlowLimit) {
     for (std::size_t k = 0; k < r.history.rows(); ++k) p = std::max(p, r.history.at(k, "load"));
     return p;
   };
-  const RunResult slow = run(scene(R"({"type": "dynamic", "pace": 0.5})"), fpz::test::fresh_path("slow"));
+  const RunResult slow = run_to_end(scene(R"({"type": "dynamic", "pace": 0.5})"), fpz::test::fresh_path("slow"));
   const fs::path folder = fpz::test::fresh_path("converged");
-  const RunResult r = run(scene(R"({"type": "converged", "tolerance": 0.03})"), folder);
+  const RunResult r = run_to_end(scene(R"({"type": "converged", "tolerance": 0.03})"), folder);
   ASSERT_EQ(r.ending, Ending::finished) << r.reason;
   EXPECT_NEAR(peak(r), peak(slow), 0.03 * peak(slow));
   ASSERT_GE(r.convergence.size(), 2U);
@@ -169,14 +158,14 @@ TEST(Solver, ConvergedComesToTheSlowLimit) {
 
   // Interrupted again and again: the same runs to the last bit.
   const RunResult pieces =
-      run(scene(R"({"type": "converged", "tolerance": 0.03})"), fpz::test::fresh_path("converged_pieces"), 700);
+      run_to_end(scene(R"({"type": "converged", "tolerance": 0.03})"), fpz::test::fresh_path("converged_pieces"), 700);
   ASSERT_EQ(pieces.convergence.size(), r.convergence.size());
   EXPECT_EQ(pieces.convergence.back().peak_load, r.convergence.back().peak_load);
   EXPECT_EQ(pieces.convergence.back().change_of_work, r.convergence.back().change_of_work);
   EXPECT_EQ(pieces.history.values, r.history.values);
 
   const RunResult impossible =
-      run(scene(R"({"type": "converged", "tolerance": 1e-9, "slowest": 4})"), fpz::test::fresh_path("never"));
+      run_to_end(scene(R"({"type": "converged", "tolerance": 1e-9, "slowest": 4})"), fpz::test::fresh_path("never"));
   EXPECT_EQ(impossible.ending, Ending::failed);
   EXPECT_NE(impossible.reason.find("not converged"), std::string::npos) << impossible.reason;
 }
