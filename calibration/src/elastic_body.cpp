@@ -107,16 +107,50 @@ int vertical(int node) { return 2 * node + 1; }
 
 int mid_line_node(const HalfMesh& mesh, int k) { return mesh.mid_line[static_cast<std::size_t>(k)]; }
 
+double height_of(const HalfMesh& mesh, int k) {
+  return mesh.nodes[static_cast<std::size_t>(mid_line_node(mesh, k))].y();
+}
+
+/// Horizontal displacement of the flank a distance before the mouth. Knife edges turn with the face, which stays square
+/// to the flank: u_x(-d) = u_x - d du_x/dy at the mouth.
+std::vector<NodeShare> flank_gauge(const HalfMesh& mesh, double distance) {
+  const double h = height_of(mesh, 2) - height_of(mesh, 0);
+  const std::array<double, 3> slope = {-3.0 / h, 4.0 / h, -1.0 / h};
+  std::vector<NodeShare> out;
+  for (int k = 0; k < 3; ++k) {
+    out.push_back({mid_line_node(mesh, k), (k == 0 ? 1.0 : 0.0) - distance * slope[static_cast<std::size_t>(k)]});
+  }
+  return out;
+}
+
+/// Horizontal displacement of the flank on the line of the forces, where there is one.
+std::vector<NodeShare> load_line_gauge(const HalfMesh& mesh) {
+  if (!mesh.load_line) return {};
+  const double distance = height_of(mesh, 0) - *mesh.load_line;
+  if (distance >= 0.0) return flank_gauge(mesh, distance);
+  int nearest = 0;
+  for (int k = 0; k < mesh.tip; ++k) {
+    const auto off = [&](int i) { return std::abs(height_of(mesh, i) - *mesh.load_line); };
+    if (off(k) < off(nearest)) nearest = k;
+  }
+  return {{mid_line_node(mesh, nearest), 1.0}};
+}
+
 std::vector<int> kept_freedoms(const HalfMesh& mesh) {
   std::vector<int> kept;
   const auto add = [&kept](int freedom) {
     if (std::find(kept.begin(), kept.end(), freedom) == kept.end()) kept.push_back(freedom);
   };
   for (int k = mesh.tip; k < static_cast<int>(mesh.mid_line.size()); ++k) add(horizontal(mid_line_node(mesh, k)));
-  for (int k = 0; k < 3; ++k) add(horizontal(mid_line_node(mesh, k)));
-  add(vertical(mesh.mid_depth));
-  for (const NodeShare& s : mesh.load) add(vertical(s.node));
-  for (std::size_t k = 1; k < mesh.support.size(); ++k) add(vertical(mesh.support[k].node));
+  for (const NodeShare& s : flank_gauge(mesh, 0.0)) add(horizontal(s.node));
+  for (const NodeShare& s : load_line_gauge(mesh)) add(horizontal(s.node));
+  if (!mesh.support.empty()) add(vertical(mesh.mid_depth));
+  for (const NodeForce& f : mesh.forces) {
+    if (f.force.x() != 0.0) add(horizontal(f.node));
+    if (f.force.y() != 0.0) add(vertical(f.node));
+  }
+  const auto held = std::find(kept.begin(), kept.end(), vertical(mesh.held));
+  if (held != kept.end()) kept.erase(held);
   return kept;
 }
 
@@ -146,8 +180,7 @@ Numbering number(const HalfMesh& mesh) {
   out.ligament = static_cast<int>(mesh.mid_line.size()) - mesh.tip;
   out.position.assign(2 * mesh.nodes.size(), unset);
   for (const int freedom : out.kept) out.position[static_cast<std::size_t>(freedom)] = 0;
-  // Holding one supported node takes the rigid motion; the reaction there is zero because the supports carry the load.
-  out.position[static_cast<std::size_t>(vertical(mesh.support.front().node))] = -1;
+  out.position[static_cast<std::size_t>(vertical(mesh.held))] = -1;
   for (const int node : node_order(mesh)) {
     for (const int freedom : {horizontal(node), vertical(node)}) {
       int& p = out.position[static_cast<std::size_t>(freedom)];
@@ -242,24 +275,20 @@ Functionals functionals(const HalfMesh& mesh, const Numbering& numbering, double
   auto cmod = out.gauges.col(static_cast<int>(Gauge::cmod));
   auto mid = out.gauges.col(static_cast<int>(Gauge::deflection_mid_depth));
   auto loaded = out.gauges.col(static_cast<int>(Gauge::deflection_load_point));
-  for (const NodeShare& s : mesh.load) {
-    add(out.load, vertical(s.node), -0.5 * s.share);
-    add(loaded, vertical(s.node), -s.share);
+  auto on_load_line = out.gauges.col(static_cast<int>(Gauge::load_line_opening));
+  for (const NodeForce& f : mesh.forces) {
+    for (const auto& [freedom, force] :
+         {std::pair{horizontal(f.node), f.force.x()}, std::pair{vertical(f.node), f.force.y()}}) {
+      if (force == 0.0) continue;
+      add(out.load, freedom, force);
+      add(loaded, freedom, 2.0 * force);
+    }
   }
-  for (const NodeShare& s : mesh.support) {
-    add(out.load, vertical(s.node), 0.5 * s.share);
-    add(loaded, vertical(s.node), s.share);
-    add(mid, vertical(s.node), s.share);
-  }
-  add(mid, vertical(mesh.mid_depth), -1.0);
+  for (const NodeShare& s : mesh.support) add(mid, vertical(s.node), s.share);
+  if (!mesh.support.empty()) add(mid, vertical(mesh.mid_depth), -1.0);
   if (mesh.tip == 0) return out;
-  // The knife edges turn with the face, which stays square to the notch flank: u_x(-d) = u_x - d du_x/dy at the mouth.
-  const double h = mesh.nodes[static_cast<std::size_t>(mesh.mid_line[2])].y();
-  const std::array<double, 3> slope = {-3.0 / h, 4.0 / h, -1.0 / h};
-  for (int k = 0; k < 3; ++k) {
-    const double factor = (k == 0 ? 1.0 : 0.0) - clip_distance * slope[static_cast<std::size_t>(k)];
-    add(cmod, horizontal(mid_line_node(mesh, k)), 2.0 * factor);
-  }
+  for (const NodeShare& s : flank_gauge(mesh, clip_distance)) add(cmod, horizontal(s.node), 2.0 * s.share);
+  for (const NodeShare& s : load_line_gauge(mesh)) add(on_load_line, horizontal(s.node), 2.0 * s.share);
   return out;
 }
 

@@ -28,6 +28,23 @@ Slope disc_function(const Slope& a, double span_over_diameter) {
   return -1.297 + 9.516 * s - (0.47 + 16.457 * s) * a + (1.071 + 34.401 * s) * a * a;
 }
 
+/// f of K_I = P f/(thickness sqrt(W)) of ASTM E399 (Srawley 1976); a is counted from the line of the pins, over W.
+Slope compact_function(const Slope& a) {
+  const Slope b = 1.0 - a;
+  return (2.0 + a) * (0.886 + a * (4.64 + a * (-13.32 + a * (14.72 - a * 5.6)))) / (b * sqrt(b));
+}
+
+/// The proportions of the standard, within its tolerances.
+bool is_standard_compact(const NotchedSpecimen& s) {
+  constexpr double tolerance = 0.01;
+  const double width = s.depth - s.load_depth;
+  const NotchedSpecimen standard = compact_tension(width, s.notch - s.load_depth, s.thickness);
+  return std::abs(s.length - standard.length) <= tolerance * width &&
+         std::abs(s.span - standard.span) <= tolerance * width &&
+         std::abs(s.load_depth - standard.load_depth) <= tolerance * width &&
+         std::abs(s.hole - standard.hole) <= tolerance * width;
+}
+
 GeometryFunction made_of(const Slope& k, std::string source) { return {k.val, k.grad[0], std::move(source)}; }
 
 /// Compliances of the load (1/m, times E) at crack lengths about the notch, up to a constant.
@@ -97,6 +114,13 @@ std::optional<GeometryFunction> published_geometry_function(const NotchedSpecime
     constexpr double rounding = 1e-9;
     if (std::abs(span - 0.65) > 0.15 + rounding || std::abs(ratio - 0.5) > 0.1 + rounding) return std::nullopt;
     return made_of(0.5 * sqrt(std::numbers::pi * a) * disc_function(a, span), "ISRM, Kuruppu et al. 2014");
+  }
+  if (s.shape == SpecimenShape::compact_tension) {
+    const double width = s.depth - s.load_depth;
+    const double crack = (s.notch - s.load_depth) / width;
+    if (!is_standard_compact(s) || crack < 0.2 || crack > 0.95) return std::nullopt;
+    const Slope over_width = (a * s.depth - s.load_depth) / width;
+    return made_of(std::sqrt(s.depth / width) * compact_function(over_width), "ASTM E399, Srawley 1976");
   }
   return std::nullopt;
 }

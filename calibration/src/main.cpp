@@ -116,26 +116,30 @@ Specification specification_of(const Arguments& arguments) {
   return spec;
 }
 
-/// What the sub-commands for bending tests have in common.
-class BendingCommand {
+/// What the sub-commands for notched specimens have in common.
+class SpecimenCommand {
  public:
-  BendingCommand(CLI::App& app, const char* name, const char* what, const char* kind,
-                 std::initializer_list<std::pair<const char*, const char*>> lengths, const char* example)
+  using Names = std::initializer_list<std::pair<const char*, const char*>>;  ///< a key and its meaning
+
+  /// Lengths that are needed have a ! before their meaning; the first gauge is meant where none is named.
+  SpecimenCommand(CLI::App& app, const char* name, const char* what, const char* kind, Names lengths, Names gauges,
+                  const char* example)
       : command_(app.add_subcommand(name, what)) {
     fit_.kind = kind;
     command_->fallthrough();
     command_->add_option("CURVE.csv", data_, "the measured curve, in any of the notations of docs/calibration.md")
         ->required();
     for (const auto& [key, meaning] : lengths) {
-      std::string option = std::string("--") + key;
-      std::replace(option.begin(), option.end(), '_', '-');
       const bool needed = std::string_view(meaning).starts_with("!");
-      auto* o =
-          command_->add_option(option, lengths_[key], std::string(meaning + (needed ? 1 : 0)) + ", such as 100mm");
+      auto* o = command_->add_option(option_for(key), lengths_[key],
+                                     std::string(meaning + (needed ? 1 : 0)) + ", such as 100mm");
       if (needed) o->required();
     }
-    gauge("cmod", "crack mouth opening");
-    gauge("deflection", "deflection of the load point, which needs --roller-width");
+    for (const auto& [key, meaning] : gauges) gauge(key, meaning);
+    if (fit_.kind == "wedge_splitting") {
+      command_->add_option("--wedge-half-angle", fit_.wedge_half_angle_deg,
+                           "degrees; the load is then the vertical one of the machine, otherwise what splits");
+    }
     command_->add_option("--load", fit_.load.column, "name or number of the column with the load; found if unique");
     command_->add_option("--load-unit", fit_.load.unit, "its unit, where the file does not state it");
     command_->add_option("--load-scale", fit_.load.scale, "factor of its numbers: -1 turns the sign");
@@ -161,18 +165,27 @@ class BendingCommand {
     for (const auto& [key, text] : lengths_) {
       if (!text.empty()) fit.lengths.emplace_back(key, text);
     }
-    fit.gauge = *deflection_ ? "deflection" : "cmod";
-    fit.reading = *deflection_ ? readings_.at("deflection") : readings_.at("cmod");
+    fit.gauge = gauges_.front().first;
+    for (const auto& [key, option] : gauges_) {
+      if (*option) fit.gauge = key;
+    }
+    fit.reading = readings_.at(fit.gauge);
     return fit;
   }
 
  private:
-  void gauge(const std::string& name, const std::string& what) {
-    QuickColumn& c = readings_[name];
-    auto* column = command_->add_option("--" + name, c.column, "name or number of the column with the " + what);
-    command_->add_option("--" + name + "-unit", c.unit, "its unit, where the file does not state it");
-    command_->add_option("--" + name + "-scale", c.scale, "factor of its numbers");
-    if (name == "deflection") deflection_ = column;
+  static std::string option_for(const char* key) {
+    std::string option = std::string("--") + key;
+    std::replace(option.begin(), option.end(), '_', '-');
+    return option;
+  }
+
+  void gauge(const char* key, const std::string& what) {
+    QuickColumn& c = readings_[key];
+    const std::string option = option_for(key);
+    gauges_.emplace_back(key, command_->add_option(option, c.column, "name or number of the column with the " + what));
+    command_->add_option(option + "-unit", c.unit, "its unit, where the file does not state it");
+    command_->add_option(option + "-scale", c.scale, "factor of its numbers");
   }
 
   template <fpz::Worded E>
@@ -187,7 +200,7 @@ class BendingCommand {
   }
 
   CLI::App* command_;
-  CLI::Option* deflection_ = nullptr;
+  std::vector<std::pair<std::string, CLI::Option*>> gauges_;
   QuickFit fit_;
   std::string data_;
   std::map<std::string, std::string> lengths_;
@@ -243,7 +256,15 @@ int main(int argc, char** argv) try {
                  "the output folder");
   app.add_option("--jobs", arguments.jobs, "runs of scenes at the same time, one core each; default: one per core")
       ->check(CLI::Range(1, 10000));
-  const BendingCommand beam(
+  constexpr std::pair<const char*, const char*> cmod{"cmod", "crack mouth opening"};
+  constexpr std::pair<const char*, const char*> clip{"clip_gauge_distance",
+                                                     "distance of the clip gauge from the mouth"};
+  const SpecimenCommand::Names bending_gauges = {
+      cmod, {"deflection", "deflection of the load point, which needs --roller-width"}};
+  const SpecimenCommand::Names pulled_gauges = {cmod,
+                                                {"load_line_opening", "opening of the notch on the line of the forces"},
+                                                {"deflection", "displacement of the two points of the forces apart"}};
+  const SpecimenCommand beam(
       app, "beam", "Fit a notched beam from its curve and lengths, without a specification", "notched_beam",
       {{"depth", "!depth of the beam"},
        {"span", "!distance of the supports"},
@@ -251,17 +272,54 @@ int main(int argc, char** argv) try {
        {"thickness", "!thickness"},
        {"length", "length of the beam"},
        {"roller_width", "width of the loaded line"},
-       {"clip_gauge_distance", "distance of the clip gauge from the surface"}},
+       clip},
+      bending_gauges,
       "fpz-calibrate beam --depth 100mm --span 300mm --notch 50mm --thickness 100mm curve.csv -o out/beam");
-  const BendingCommand semicircular(
+  const SpecimenCommand semicircular(
       app, "semicircular", "Fit a semicircular specimen in bending the same way", "semicircular_bend",
       {{"radius", "!radius of the half disc"},
        {"span", "!distance of the supports"},
        {"notch", "!length of the notch"},
        {"thickness", "!thickness"},
        {"roller_width", "width of the loaded line"},
-       {"clip_gauge_distance", "distance of the clip gauge from the surface"}},
+       clip},
+      bending_gauges,
       "fpz-calibrate semicircular --radius 50mm --span 60mm --notch 20mm --thickness 30mm curve.csv -o out/scb");
+  const SpecimenCommand compact(
+      app, "compact", "Fit a compact tension specimen the same way", "compact_tension",
+      {{"width", "!from the line of the pins to the back"},
+       {"notch", "!from the line of the pins to the tip"},
+       {"thickness", "!thickness"},
+       {"hole", "diameter of the holes; 0.25 width when left out"},
+       clip},
+      pulled_gauges, "fpz-calibrate compact --width 100mm --notch 40mm --thickness 50mm curve.csv -o out/compact");
+  const SpecimenCommand wedge(
+      app, "wedge", "Fit a wedge splitting test the same way", "wedge_splitting",
+      {{"length", "!of the specimen across the notch"},
+       {"depth", "!from the face with the notch to the bottom"},
+       {"ligament", "!from the tip of the notch to the bottom"},
+       {"thickness", "!thickness"},
+       {"span", "!distance of the two bearings"},
+       {"load_depth", "!of the bearings below the face"},
+       {"groove_width", "of a groove in the face"},
+       {"groove_depth", "of a groove in the face"},
+       {"roller_width", "height over which the forces are spread"},
+       clip},
+      pulled_gauges,
+      "fpz-calibrate wedge --length 200mm --depth 200mm --ligament 100mm --thickness 100mm --span 80mm\n"
+      "    --load-depth 20mm --wedge-half-angle 15 curve.csv -o out/wedge");
+  const SpecimenCommand cantilever(
+      app, "cantilever", "Fit a double cantilever beam the same way", "double_cantilever",
+      {{"height", "!of both arms"},
+       {"length", "!from end to end"},
+       {"notch", "!from the line of the forces to the tip"},
+       {"thickness", "!thickness"},
+       {"span", "distance of the two forces; half the height when left out"},
+       {"load_depth", "of the line of the forces from the end"},
+       {"roller_width", "length over which the forces are spread"},
+       clip},
+      pulled_gauges,
+      "fpz-calibrate cantilever --height 60mm --length 300mm --notch 80mm --thickness 30mm curve.csv -o out/dcb");
   app.require_subcommand(0, 1);
   app.footer(
       "Examples:\n"
@@ -276,7 +334,7 @@ int main(int argc, char** argv) try {
   try {
     app.parse(argc, argv);
     if (!arguments.check && arguments.out.empty()) throw CLI::RequiredError("--out");
-    for (const BendingCommand* command : {&beam, &semicircular}) {
+    for (const SpecimenCommand* command : {&beam, &semicircular, &compact, &wedge, &cantilever}) {
       if (auto fit = command->parsed()) arguments.quick = std::move(fit);
     }
     if (arguments.quick.has_value() != arguments.file.empty()) throw CLI::RequiredError("SPEC.json (or a sub-command)");

@@ -16,7 +16,10 @@ using Inputs = Eigen::Matrix<double, path_input_count, 1>;
 
 constexpr int at(PathInput p) { return static_cast<int>(p); }
 
-const char* name(Gauge g) { return g == Gauge::cmod ? "CMOD" : "deflection"; }
+const char* name(Gauge g) {
+  if (g == Gauge::cmod) return "CMOD";
+  return is_opening(g) ? "opening on the load line" : "deflection";
+}
 
 }  // namespace
 
@@ -282,7 +285,7 @@ std::string MidLine::why_stuck(double wanted) const {
   } else {
     // The path is piecewise smooth: where no step however small leads on, it has turned back.
     text << "equilibrium turns back there (snap-back) at a load of " << now_.load << " N; ";
-    if (control_.gauge == Gauge::cmod) {
+    if (is_opening(control_.gauge)) {
       text << "where theory has none, the process zone is too short for the mesh: make the elements smaller";
     } else {
       text << "use CMOD data, or smaller elements if the load has hardly begun to fall";

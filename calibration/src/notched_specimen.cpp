@@ -40,8 +40,44 @@ void check_mesh(const MeshDensity& mesh, Checker& check) {
   check.between("mesh.growth", mesh.growth, 0.05, 1.0);
 }
 
+/// Specimens that are pulled open.
+void check_arm(const NotchedSpecimen& s, Checker& check) {
+  const bool sizes = check.positive("length", s.length) & check.positive("depth", s.depth);
+  check.positive("thickness", s.thickness);
+  const auto length = [&](const char* field, double value) {
+    return check.require(std::isfinite(value) && value >= 0.0, field, value, "must be finite and >= 0");
+  };
+  const bool places = check.positive("span", s.span) & check.positive("notch", s.notch) &
+                      length("load_depth", s.load_depth) & length("hole", s.hole) &
+                      length("roller_width", s.roller_width) & length("groove_width", s.groove_width) &
+                      length("groove_depth", s.groove_depth);
+  length("wedge_slope", s.wedge_slope);
+  length("clip_gauge_distance", s.clip_gauge_distance);
+  if (!sizes || !places) return;
+  check.require(s.notch <= 0.98 * s.depth, "notch", s.notch,
+                "must be <= 0.98 times the depth = " + Checker::text(0.98 * s.depth));
+  const double mouth = std::max(s.load_depth, s.groove_depth);
+  check.require(s.notch >= mouth + 0.05 * s.ligament(), "notch", s.notch,
+                "its tip must lie below the forces and the groove, by 0.05 times the ligament, at >= " +
+                    Checker::text((mouth + 0.05 * s.depth) / 1.05));
+  check.require(s.span + s.hole < 0.95 * s.length, "span", s.span,
+                "span + hole must be < 0.95 length = " + Checker::text(0.95 * s.length));
+  check.require(
+      s.hole <= 0.9 * s.span && s.hole <= 1.8 * s.load_depth, "hole", s.hole,
+      "must be <= 0.9 span and <= 1.8 load_depth, " + Checker::text(std::min(0.9 * s.span, 1.8 * s.load_depth)));
+  check.require(s.hole == 0.0 || s.roller_width == 0.0, "roller_width", s.roller_width,
+                "must be 0 where there are holes");
+  check.require(s.roller_width <= 2.0 * s.load_depth, "roller_width", s.roller_width,
+                "must be <= 2 load_depth = " + Checker::text(2.0 * s.load_depth));
+  check.require(s.load_depth + 0.5 * s.roller_width < s.depth, "load_depth", s.load_depth, "must be < depth");
+  check.require((s.groove_width > 0.0) == (s.groove_depth > 0.0), "groove_width", s.groove_width,
+                "groove_width and groove_depth go together");
+  check.require(s.groove_width <= 0.99 * s.span, "groove_width", s.groove_width,
+                "must be <= 0.99 span = " + Checker::text(0.99 * s.span));
+}
+
 Control control_of(Gauge gauge, const Eigen::VectorXd& nuisance) {
-  if (gauge == Gauge::cmod) return {gauge, nuisance[0], 0.0};
+  if (is_opening(gauge)) return {gauge, nuisance[0], 0.0};
   return {gauge, nuisance[1], nuisance[0], nuisance[2], nuisance[3]};
 }
 
@@ -59,7 +95,7 @@ Prediction prediction_of(Gauge gauge, MonotonicCurve curve, Eigen::Index nuisanc
   put(static_cast<int>(Parameter::tensile_strength), PathInput::tensile_strength);
   put(static_cast<int>(Parameter::delta0), PathInput::delta0);
   put(static_cast<int>(Parameter::normal_stiffness), PathInput::normal_stiffness);
-  if (gauge == Gauge::cmod) {
+  if (is_opening(gauge)) {
     put(parameter_count, PathInput::gauge_offset);
   } else {
     put(parameter_count, PathInput::machine_compliance);
@@ -106,8 +142,35 @@ void require_valid(const NotchedSpecimen& specimen, double poisson_ratio) {
 
 }  // namespace
 
+double NotchedSpecimen::nominal_stress() const {
+  const double area = thickness * ligament();
+  if (!is_pulled_open(shape)) return 1.5 * arms() / (area * ligament());
+  const double arm = notch - load_depth + 0.5 * ligament();
+  return (1.0 + 6.0 * arm / ligament()) / area;
+}
+
+NotchedSpecimen compact_tension(double width, double notch, double thickness) {
+  NotchedSpecimen s;
+  s.shape = SpecimenShape::compact_tension;
+  s.length = 1.2 * width;
+  s.depth = 1.25 * width;
+  s.thickness = thickness;
+  s.span = 0.55 * width;
+  s.load_depth = 0.25 * width;
+  s.hole = 0.25 * width;
+  s.notch = s.load_depth + notch;
+  return s;
+}
+
 Validation validate(const NotchedSpecimen& s) {
   Checker check;
+  check.require(s.setting != Setting::three_d, "setting", static_cast<double>(s.setting),
+                "must be plane_strain or plane_stress");
+  check_mesh(s.mesh, check);
+  if (is_pulled_open(s.shape)) {
+    check_arm(s, check);
+    return std::move(check.result);
+  }
   const bool beam = s.shape == SpecimenShape::beam;
   const bool height_ok = beam ? check.positive("depth", s.depth) : check.positive("radius", s.radius);
   const bool length_ok = beam ? check.positive("length", s.length) : height_ok;
@@ -136,9 +199,6 @@ Validation validate(const NotchedSpecimen& s) {
   }
   check.require(std::isfinite(s.clip_gauge_distance) && s.clip_gauge_distance >= 0.0, "clip_gauge_distance",
                 s.clip_gauge_distance, "must be finite and >= 0");
-  check.require(s.setting != Setting::three_d, "setting", static_cast<double>(s.setting),
-                "must be plane_strain or plane_stress");
-  check_mesh(s.mesh, check);
   return std::move(check.result);
 }
 
@@ -152,9 +212,15 @@ Validation validate(const NotchedSpecimenTest& test) {
       break;
     }
   }
-  check.require(test.gauge != Gauge::deflection_load_point || test.specimen.roller_width > 0.0, "roller_width",
-                test.specimen.roller_width,
-                "must be > 0 for the deflection of the load point: under a point load it has no finite value");
+  const bool pulled_open = is_pulled_open(test.specimen.shape);
+  check.require(
+      test.gauge != Gauge::deflection_load_point || test.specimen.roller_width > 0.0 || test.specimen.hole > 0.0,
+      "roller_width", test.specimen.roller_width,
+      "must be > 0 for the deflection of the load point: under a point load it has no finite value");
+  const bool known = pulled_open ? test.gauge != Gauge::deflection_mid_depth : test.gauge != Gauge::load_line_opening;
+  check.require(
+      known, "gauge", static_cast<double>(test.gauge),
+      std::string(to_string(test.gauge)) + " does not exist on a specimen of shape " + to_string(test.specimen.shape));
   check.require(test.gauge != Gauge::cmod || test.specimen.notch > 0.0, "notch", test.specimen.notch,
                 "must be > 0 for CMOD: a gauge across an unnotched face shows strain as well; use a deflection");
   check.require(test.cache != nullptr, "cache", 0.0, "must not be empty");
@@ -190,7 +256,7 @@ std::span<const NuisanceInfo> nuisances(Gauge gauge) {
                                                               {"deflection_offset", "d_0", "m", true},
                                                               {"toe", "d_toe", "m", false},
                                                               {"toe_load", "P_toe", "N", false}}};
-  if (gauge == Gauge::cmod) return cmod;
+  if (is_opening(gauge)) return cmod;
   return deflection;
 }
 
@@ -235,6 +301,7 @@ FractureCurve fracture_curve(const NotchedSpecimen& specimen, const Parameters& 
     curve.cmod.push_back(path.gauge(Gauge::cmod));
     curve.deflection_mid_depth.push_back(path.gauge(Gauge::deflection_mid_depth));
     curve.deflection_load_point.push_back(path.gauge(Gauge::deflection_load_point));
+    curve.load_line_opening.push_back(path.gauge(Gauge::load_line_opening));
     curve.crack_length.push_back(path.crack_length());
     curve.fracture_work.push_back(path.fracture_work());
     curve.elastic_energy.push_back(path.elastic_energy());

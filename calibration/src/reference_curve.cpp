@@ -20,24 +20,35 @@ using fpz::calibration::SpecimenShape;
 struct Conditions {
   NotchedSpecimen specimen;
   fpz::Parameters material;
+  double end_load = 0.05;  ///< where the curve ends, over the peak; stated where it is not this
 };
 
 /// A number among the conditions: an option of the program and a key of the file.
 struct Number {
   std::string name, meaning;
   double& value;
-  bool beam = true, semicircular = true;  ///< which shapes have it
+  bool beam = true, semicircular = true, pulled_open = true;  ///< which shapes have it
+
+  [[nodiscard]] bool belongs_to(SpecimenShape shape) const {
+    if (is_pulled_open(shape)) return pulled_open;
+    return shape == SpecimenShape::beam ? beam : semicircular;
+  }
 };
 
 std::vector<Number> numbers(Conditions& c) {
   NotchedSpecimen& s = c.specimen;
   std::vector<Number> list = {
-      {"length", "of the beam, m", s.length, true, false},
-      {"depth", "of the beam, m", s.depth, true, false},
-      {"radius", "of the half disc, m", s.radius, false, true},
+      {"length", "of the beam, or of others across the notch, m", s.length, true, false},
+      {"depth", "of the beam, or of others from the face with the notch to the back, m", s.depth, true, false},
+      {"radius", "of the half disc, m", s.radius, false, true, false},
       {"thickness", "m", s.thickness},
-      {"span", "distance of the supports, m", s.span},
-      {"notch", "length of the notch, m", s.notch},
+      {"span", "distance of the supports or of the two forces, m", s.span},
+      {"notch", "from the face to the tip of the notch, m", s.notch},
+      {"load_depth", "from the face to the two forces, m", s.load_depth, false, false},
+      {"hole", "diameter of the holes that the forces act in, m; 0: none", s.hole, false, false},
+      {"groove_width", "of a groove in the face, m", s.groove_width, false, false},
+      {"groove_depth", "m", s.groove_depth, false, false},
+      {"wedge_slope", "force in the direction of the notch on each side, over the load", s.wedge_slope, false, false},
       {"roller_width", "load and supports are even pressures over this width, m; 0: points", s.roller_width}};
   for (const auto& p : fpz::parameter_table<double>) {
     if (!p.of_material) continue;
@@ -51,9 +62,8 @@ std::vector<Number> numbers(Conditions& c) {
 std::vector<std::pair<std::string, std::string>> entries(Conditions& c) {
   std::vector<std::pair<std::string, std::string>> list = {{"shape", fpz::to_string(c.specimen.shape)},
                                                            {"setting", fpz::to_string(c.specimen.setting)}};
-  const bool beam = c.specimen.shape == SpecimenShape::beam;
   for (const Number& n : numbers(c)) {
-    if (beam ? n.beam : n.semicircular) list.emplace_back(n.name, io::exact(n.value));
+    if (n.belongs_to(c.specimen.shape)) list.emplace_back(n.name, io::exact(n.value));
   }
   return list;
 }
@@ -64,13 +74,18 @@ std::string file_text(Conditions& c, const FractureCurve& curve, const std::stri
     conditions += "# " + name + " = " + value + "\n";
     command += " --" + name + "=" + value;
   }
+  if (c.end_load != Conditions{}.end_load) command += " --end_load=" + io::exact(c.end_load);
+  const bool pulled_open = is_pulled_open(c.specimen.shape);
+  const std::vector<double>& third = pulled_open ? curve.load_line_opening : curve.deflection_mid_depth;
   std::string text =
       "# Notched specimen with a straight cohesive crack in pure mode I, finite elements (calibration/), SI units:\n"
-      "# load, opening of the notch at the face, deflection at half depth relative to the supports. Made by\n# " +
-      command + " -o " + file + "\n" + conditions + "load,cmod,deflection_mid_depth\n";
+      "# load, opening of the notch at the face, " +
+      std::string(pulled_open ? "opening on the line of the forces"
+                              : "deflection at half depth relative to the supports") +
+      ". Made by\n# " + command + " -o " + file + "\n" + conditions + "load,cmod," +
+      (pulled_open ? "load_line_opening" : "deflection_mid_depth") + "\n";
   for (std::size_t k = 0; k < curve.load.size(); ++k) {
-    text += io::exact(curve.load[k]) + "," + io::exact(curve.cmod[k]) + "," + io::exact(curve.deflection_mid_depth[k]) +
-            "\n";
+    text += io::exact(curve.load[k]) + "," + io::exact(curve.cmod[k]) + "," + io::exact(third[k]) + "\n";
   }
   return text;
 }
@@ -85,6 +100,8 @@ int main(int argc, char** argv) try {
   app.add_option("--shape", shape, fpz::all_words<SpecimenShape>())->required();
   app.add_option("--setting", setting, "plane_strain or plane_stress");
   for (const Number& n : numbers(conditions)) app.add_option("--" + n.name, n.value, n.meaning);
+  app.add_option("--end_load", conditions.end_load, "load at which the curve ends, over the peak")
+      ->check(CLI::Range(0.01, 0.99));
   app.add_option("-o,--out", file, "CSV file")->required();
   app.footer("The files in data/reference name the commands that made them.");
   try {
@@ -100,7 +117,7 @@ int main(int argc, char** argv) try {
   } catch (const CLI::ParseError& e) {
     return app.exit(e) == 0 ? 0 : 2;
   }
-  const FractureCurve curve = fracture_curve(conditions.specimen, conditions.material);
+  const FractureCurve curve = fracture_curve(conditions.specimen, conditions.material, conditions.end_load);
   if (!curve.failure.empty()) {
     std::cerr << "fpz-notched-reference: " << curve.failure << "\n";
     return 1;

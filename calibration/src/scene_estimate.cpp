@@ -37,7 +37,7 @@ std::string estimate_of_runs(const Specification& spec, int jobs) {
   const double cores = jobs > 0 ? jobs : static_cast<double>(std::max(1U, std::thread::hardware_concurrency()));
   return std::to_string(scenes.size()) + (scenes.size() == 1 ? " scene" : " scenes") + ", some " +
          detail::digits(std::round(points), 3) + " parameter sets to run: about " + detail::digits(seconds / cores, 2) +
-         " s or less on " + detail::digits(cores) + (cores == 1.0 ? " core" : " cores") +
+         " s or less on " + detail::digits(cores) + (cores == 1.0 ? " free core" : " free cores") +
          " (runs end when the load has dropped)";
 }
 

@@ -176,7 +176,7 @@ SceneFacts facts_of(const SceneSource& source) {
 double seconds_of(const SceneRun& run) {
   const specimen::Scene scene = scene_of(run);
   const specimen::Estimate e = specimen::estimate(scene, specimen::make_specimen(scene), 1);
-  return e.step_seconds * static_cast<double>(e.likely_steps);
+  return e.step_processor_seconds * static_cast<double>(e.likely_steps);
 }
 
 }  // namespace detail

@@ -1,4 +1,5 @@
-// Structured meshes of half a beam and of half a half disc (a quarter disc).
+// Structured meshes of half a beam, of half a half disc (a quarter disc), and of one arm of a specimen that is pulled
+// open.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -60,29 +61,43 @@ std::vector<double> sorted_breaks(std::vector<double> places) {
 class Lattice {
  public:
   using Map = std::function<Eigen::Vector2d(double, double)>;
+  using Place = std::pair<std::size_t, std::size_t>;  ///< column and row
 
-  Lattice(const std::vector<double>& us, const std::vector<double>& vs, const Map& map, HalfMesh& mesh)
+  /// Elements whose middle (before the map) is in a hole are left out.
+  Lattice(const std::vector<double>& us, const std::vector<double>& vs, const Map& map,
+          const std::function<bool(double, double)>& in_hole, HalfMesh& mesh)
       : columns_(2 * us.size() - 1), rows_(2 * vs.size() - 1), index_(columns_ * rows_, -1) {
-    for (std::size_t i = 0; i < columns_; ++i) {
-      for (std::size_t j = 0; j < rows_; ++j) {
-        if (i % 2 == 1 && j % 2 == 1) continue;
-        index_[i * rows_ + j] = static_cast<int>(mesh.nodes.size());
-        mesh.nodes.push_back(map(at(us, i), at(vs, j)));
-      }
-    }
+    constexpr std::array<Place, 8> corners_and_middles = {
+        {{0, 0}, {2, 0}, {2, 2}, {0, 2}, {1, 0}, {2, 1}, {1, 2}, {0, 1}}};
+    std::vector<Place> elements;  // their first corners
     for (std::size_t i = 0; i + 2 < columns_; i += 2) {
       for (std::size_t j = 0; j + 2 < rows_; j += 2) {
-        mesh.elements.push_back({node(i, j), node(i + 2, j), node(i + 2, j + 2), node(i, j + 2), node(i + 1, j),
-                                 node(i + 2, j + 1), node(i + 1, j + 2), node(i, j + 1)});
+        if (in_hole(at(us, i + 1), at(vs, j + 1))) continue;
+        elements.emplace_back(i, j);
+        for (const auto& [column, row] : corners_and_middles) index_[(i + column) * rows_ + j + row] = used;
+      }
+    }
+    for (std::size_t k = 0; k < index_.size(); ++k) {
+      if (index_[k] != used) continue;
+      index_[k] = static_cast<int>(mesh.nodes.size());
+      mesh.nodes.push_back(map(at(us, k / rows_), at(vs, k % rows_)));
+    }
+    for (const auto& [i, j] : elements) {
+      std::array<int, 8>& element = mesh.elements.emplace_back();
+      for (std::size_t k = 0; k < element.size(); ++k) {
+        element[k] = node(i + corners_and_middles[k].first, j + corners_and_middles[k].second);
       }
     }
   }
 
+  /// -1 where there is none.
   [[nodiscard]] int node(std::size_t i, std::size_t j) const { return index_[i * rows_ + j]; }
   [[nodiscard]] std::size_t columns() const { return columns_; }
   [[nodiscard]] std::size_t rows() const { return rows_; }
 
  private:
+  static constexpr int used = -2;  ///< a node that has no number yet
+
   static double at(const std::vector<double>& lines, std::size_t i) {
     return i % 2 == 0 ? lines[i / 2] : 0.5 * (lines[i / 2] + lines[i / 2 + 1]);
   }
@@ -114,9 +129,98 @@ std::vector<NodeShare> spread(const std::vector<double>& lines, std::size_t from
   return out;
 }
 
+/// A unit of force in x, even over the height of a chain of sides (corner, middle, corner, ...): Simpson's rule is
+/// exact, so the force has its line of action in the middle of the height. One node: a point.
+std::vector<NodeForce> even_pull(const HalfMesh& mesh, const std::vector<int>& chain) {
+  if (chain.size() == 1) return {{chain.front(), Eigen::Vector2d::UnitX()}};
+  const auto y = [&](std::size_t k) { return mesh.nodes[static_cast<std::size_t>(chain[k])].y(); };
+  const double height = y(chain.size() - 1) - y(0);
+  std::vector<NodeForce> out;
+  for (const int node : chain) out.push_back({node});
+  for (std::size_t k = 0; k + 2 < chain.size(); k += 2) {
+    const double a = y(k);
+    const double b = y(k + 1);
+    const double c = y(k + 2);
+    const std::array<double, 3> parts = {-3.0 * a + 4.0 * b - c, 4.0 * (c - a), a - 4.0 * b + 3.0 * c};
+    for (std::size_t i = 0; i < 3; ++i) out[k + i].force.x() += parts[i] / (6.0 * height);
+  }
+  return out;
+}
+
+/// Moves the points around the square about `centre` of half side r so that it becomes a circle of radius r. Points
+/// farther than `reach` (in the larger of both coordinates) stay.
+Eigen::Vector2d around_hole(const Eigen::Vector2d& centre, double r, double reach, const Eigen::Vector2d& x) {
+  const Eigen::Vector2d from = x - centre;
+  const double rank = from.cwiseAbs().maxCoeff();
+  if (rank <= 0.0 || rank >= reach) return x;
+  const double part = std::clamp((rank - r) / (reach - r), 0.0, 1.0);
+  return centre + from * (part + (1.0 - part) * rank / from.norm());
+}
+
+/// One arm of a specimen that two opposite forces pull open, with its part of the ligament. y = 0 is the face that the
+/// notch comes from.
+HalfMesh make_arm(const NotchedSpecimen& s) {
+  const double place = 0.5 * s.span;
+  const double width = 0.5 * s.length;
+  const double reach = s.hole > 0.0 ? 0.5 * s.hole : 0.5 * s.roller_width;
+  const double top = s.load_depth + reach;
+  const double bottom = s.load_depth - reach;
+  const double right = place + 0.5 * s.hole;
+  const double ligament_size = s.mesh.ligament_fraction * s.ligament();
+  const double tip_size = s.mesh.tip_fraction * ligament_size;
+  double load_size = s.mesh.support_fraction * std::min(s.depth, s.length);
+  if (reach > 0.0) load_size = std::min(load_size, 0.5 * reach);
+
+  // 1. Grid lines.
+  const double growth = s.mesh.growth;
+  const std::vector<double> us =
+      grid_lines(sorted_breaks({0.0, 0.5 * s.groove_width, place - 0.5 * s.hole, place, right, width}),
+                 {{0.0, 0.0, tip_size}, {place - 0.5 * s.hole, right, load_size}}, growth, 2);
+  const std::vector<double> vs = grid_lines(
+      sorted_breaks({0.0, s.groove_depth, bottom, s.load_depth, top, s.notch, s.depth}),
+      {{s.notch, s.notch, tip_size}, {s.notch, s.depth, ligament_size}, {bottom, top, load_size}}, growth, 2);
+
+  // 2. Mesh without groove and hole.
+  const Eigen::Vector2d centre(place, s.load_depth);
+  const double around = std::min({place, width - place, s.load_depth, s.depth - s.load_depth});
+  const auto map = [&](double x, double y) -> Eigen::Vector2d {
+    return s.hole > 0.0 ? around_hole(centre, 0.5 * s.hole, around, {x, y}) : Eigen::Vector2d(x, y);
+  };
+  const auto in_hole = [&](double x, double y) {
+    if (x < 0.5 * s.groove_width && y < s.groove_depth) return true;
+    return s.hole > 0.0 && (Eigen::Vector2d(x, y) - centre).cwiseAbs().maxCoeff() < 0.5 * s.hole;
+  };
+  HalfMesh mesh;
+  mesh.thickness = s.thickness;
+  const Lattice lattice(us, vs, map, in_hole, mesh);
+
+  // 3. Mid-line.
+  const std::size_t mouth = 2 * line_at(vs, s.groove_width > 0.0 ? s.groove_depth : 0.0);
+  for (std::size_t j = mouth; j < lattice.rows(); ++j) mesh.mid_line.push_back(lattice.node(0, j));
+  mesh.tip = static_cast<int>(2 * line_at(vs, s.notch) - mouth);
+  mesh.load_line = s.load_depth;
+
+  // 4. The force acts outwards, on the outer half of the hole where there is one; what a wedge presses in the direction
+  //    of the notch goes into a support below the ligament, which is the node that is held.
+  std::vector<int> chain;
+  const auto add = [&](std::size_t i, std::size_t j) { chain.push_back(lattice.node(i, j)); };
+  const std::size_t middle = 2 * line_at(us, place);
+  const std::size_t outer = 2 * line_at(us, right);
+  const std::size_t low = 2 * line_at(vs, bottom);
+  const std::size_t high = 2 * line_at(vs, top);
+  for (std::size_t i = middle; i < outer; ++i) add(i, low);
+  for (std::size_t j = low; j <= high; ++j) add(outer, j);
+  for (std::size_t i = outer; i-- > middle;) add(i, high);
+  mesh.forces = even_pull(mesh, chain);
+  for (NodeForce& f : mesh.forces) f.force.y() = s.wedge_slope * f.force.x();
+  mesh.held = mesh.mid_line.back();
+  return mesh;
+}
+
 }  // namespace
 
 HalfMesh make_mesh(const NotchedSpecimen& s) {
+  if (is_pulled_open(s.shape)) return make_arm(s);
   const bool beam = s.shape == SpecimenShape::beam;
   const double height = s.height();
   const double width = beam ? 0.5 * s.length : s.radius;
@@ -148,17 +252,21 @@ HalfMesh make_mesh(const NotchedSpecimen& s) {
   };
   HalfMesh mesh;
   mesh.thickness = s.thickness;
-  const Lattice lattice(us, vs, map, mesh);
+  const Lattice lattice(
+      us, vs, map, [](double, double) { return false; }, mesh);
 
   // 3. Mid-line, load and support.
   for (std::size_t j = 0; j < lattice.rows(); ++j) mesh.mid_line.push_back(lattice.node(0, j));
   mesh.tip = static_cast<int>(2 * line_at(vs, s.notch));
   mesh.mid_depth = lattice.node(0, 2 * line_at(vs, 0.5 * height));
   const std::size_t top = lattice.rows() - 1;
-  mesh.load =
+  const auto load =
       spread(us, line_at(us, load_from), line_at(us, load_to), [&](std::size_t i) { return lattice.node(i, top); });
   mesh.support = spread(us, line_at(us, half_span - half_roller), line_at(us, half_span + half_roller),
                         [&](std::size_t i) { return lattice.node(i, 0); });
+  for (const NodeShare& n : load) mesh.forces.push_back({n.node, {0.0, -0.5 * n.share}});
+  for (const NodeShare& n : mesh.support) mesh.forces.push_back({n.node, {0.0, 0.5 * n.share}});
+  mesh.held = mesh.support.front().node;
   return mesh;
 }
 

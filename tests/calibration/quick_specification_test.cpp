@@ -70,6 +70,18 @@ TEST_F(QuickSpecification, TakesWhatIsStated) {
   EXPECT_DOUBLE_EQ(s.data[0].measured[3], 4800.0);
 }
 
+TEST_F(QuickSpecification, WedgeWithItsAngleTakesTheLoadOfTheMachine) {
+  fit_.kind = "wedge_splitting";
+  fit_.lengths = {{"length", "200mm"},    {"depth", "200mm"}, {"ligament", "100mm"},
+                  {"thickness", "100mm"}, {"span", "60mm"},   {"load_depth", "15mm"}};
+  EXPECT_DOUBLE_EQ(read().data[0].measured[3], 2400.0);
+  fit_.wedge_half_angle_deg = 45.0;
+  EXPECT_NEAR(read().data[0].measured[3], 1200.0, 1e-9);
+  fit_.gauge = "load_line_opening";
+  fit_.reading.column = "1";
+  EXPECT_EQ(std::get<NotchedData>(read().data[0].test).test.gauge, Gauge::load_line_opening);
+}
+
 TEST_F(QuickSpecification, RefusesWhatIsOpen) {
   fit_.lengths[0].second = "100";
   expect_refused("--depth 100: say the unit");

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <random>
 #include <string>
 #include <vector>
@@ -360,6 +362,83 @@ TEST(Specification, DamagedOnesEndInAMessage) {
     }
   }
   EXPECT_GT(refused, 1000);
+}
+
+/// A specimen that is pulled open, one data set.
+std::string pulled(const std::string& kind, const std::string& geometry, const std::string& load = "load") {
+  return R"({"name": "b", "kind": ")" + kind + R"(", "geometry": {"unit": "mm", )" + geometry +
+         R"(}, "values": {"cmod": {"unit": "um", "list": [2, 4, 6, 8]}, ")" + load +
+         R"(": {"unit": "N", "list": [100, 200, 300, 400]}}})";
+}
+
+const NotchedSpecimen& specimen_of(const Specification& s) {
+  return std::get<NotchedData>(s.data[0].test).test.specimen;
+}
+
+TEST(Specification, CompactTensionHasTheProportionsOfTheStandardWhereNothingElseIsStated) {
+  const std::string lengths = R"("width": 100, "notch": 40, "thickness": 50)";
+  const Specification s = parse_specification(with(pulled("compact_tension", lengths)), origin);
+  NotchedSpecimen standard = compact_tension(0.1, 0.04, 0.05);
+  EXPECT_EQ(specimen_of(s), standard);
+  standard.hole = 0.0;
+  EXPECT_EQ(specimen_of(parse_specification(with(pulled("compact_tension", lengths + R"(, "hole": 0)")), origin)),
+            standard);
+  expect_message(with(pulled("compact_tension", R"("width": 100, "notch": 99, "thickness": 50)")), "notch = ");
+  expect_message(with(pulled("compact_tension", lengths + R"(, "depth": 3)")), "unknown key \"depth\"");
+}
+
+TEST(Specification, WedgesTurnTheLoadOfTheMachineIntoWhatSplits) {
+  const std::string lengths =
+      R"("length": 200, "depth": 200, "ligament": 90, "thickness": 100, "span": 60, "load_depth": 15)";
+  const std::string wedge = lengths + R"(, "wedge_half_angle_deg": 15)";
+  const Specification plain = parse_specification(with(pulled("wedge_splitting", lengths)), origin);
+  EXPECT_DOUBLE_EQ(specimen_of(plain).notch, 0.11);
+  EXPECT_EQ(specimen_of(plain).wedge_slope, 0.0);
+  const Specification turned = parse_specification(with(pulled("wedge_splitting", wedge, "vertical_load")), origin);
+  const double slope = 2.0 - std::sqrt(3.0);  // tan 15 degrees
+  EXPECT_NEAR(specimen_of(turned).wedge_slope, slope, 1e-12);
+  EXPECT_NEAR(turned.data[0].measured[3], 400.0 / (2.0 * slope), 1e-9);
+  EXPECT_NEAR(turned.data[0].deviation[3] / plain.data[0].deviation[3], 1.0 / (2.0 * slope), 1e-9);
+  expect_message(with(pulled("wedge_splitting", lengths, "vertical_load")), "needs \"wedge_half_angle_deg\"");
+  expect_message(with(pulled("compact_tension", R"("width": 100, "notch": 40, "thickness": 50)", "vertical_load")),
+                 "has none of the quantities load");
+}
+
+TEST(Specification, EccentricNotchIsRefusedWithTheWayOut) {
+  const std::string set = R"({"name": "b", "kind": "notched_beam", "values": {"cmod": [1e-6, 2e-6, 3e-6, 4e-6],
+    "load": [1000, 2000, 3000, 4000]}, "geometry": {"unit": "mm", "depth": 50, "thickness": 50, "span": 125,
+    "notch": 25, "notch_offset": )";
+  expect_message(with(set + "20}}"), "use a data set of the kind \"scene\"");
+  EXPECT_EQ(message_of(with(set + "0}}")), "");
+}
+
+TEST(Specification, QuantitiesStandForParametersAsInMaterialFiles) {
+  const auto p = [](const std::string& entries, const std::string& fit) {
+    return R"({"material": "../materials/johnstone.json", "fit": [)" + fit + R"(], "parameters": {)" + entries +
+           R"(}, "data": [)" + energy_set + "]}";
+  };
+  const Specification s =
+      parse_specification(p(R"-("compressive_strength": {"value": 4, "unit": "MPa"}, "friction_angle_deg": 30,
+             "K_Ic": {"value": 2.5, "unit": "MPa.sqrt(mm)"})-",
+                            "\"dilation_angle_deg\""),
+                          origin);
+  const double phi = 30.0 * std::numbers::pi / 180.0;
+  EXPECT_EQ(s[Parameter::friction_angle_deg].value, 30.0);
+  // The Mohr circle of uniaxial compression touches the yield surface.
+  const double c0 = s[Parameter::cohesion].value;
+  const double a = c0 - s[Parameter::tensile_strength].value * std::tan(phi);
+  EXPECT_NEAR(std::sqrt(4e12 + a * a), c0 * std::cos(phi) + 2e6 * std::sin(phi), 1e-3);
+  const double energy = s[Parameter::tensile_strength].value * s[Parameter::delta0].value;
+  EXPECT_NEAR(energy, 2.5e6 * 2.5e6 * 1e-3 * (1.0 - 0.25 * 0.25) / 0.4e9, 1e-9);
+  EXPECT_EQ(s.conversions.size(), 2u);
+
+  // What a fitted parameter moves is refused; what it does not is taken.
+  const std::string k = R"-("K_Ic": {"value": 2.5, "unit": "MPa.sqrt(mm)"})-";
+  expect_message(p(k + R"(, "tensile_strength": {"start": 0.5, "unit": "MPa"})", "\"dilation_angle_deg\""),
+                 "tensile_strength is fitted, and delta0 follows from it");
+  expect_message(p(k, "\"young_modulus\""), "delta0 follows from it");
+  expect_message(p(k + R"(, "delta0": 1e-5)", "\"dilation_angle_deg\""), "delta0");
+  EXPECT_EQ(message_of(p(R"("UCS": {"value": 4, "unit": "MPa"})", "\"delta0\"")), "");
 }
 
 TEST(Specification, ShippedOnesAreGood) {

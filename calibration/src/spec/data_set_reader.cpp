@@ -23,6 +23,9 @@ constexpr KindRow kinds[] = {{"fracture_energy", read_fracture_energy},
                              {"stress_strain", read_stress_strain},
                              {"notched_beam", read_notched_beam},
                              {"semicircular_bend", read_semicircular_bend},
+                             {"compact_tension", read_compact_tension},
+                             {"wedge_splitting", read_wedge_splitting},
+                             {"double_cantilever", read_double_cantilever},
                              {"peak_load", read_peak_load},
                              {"scene", read_scene}};
 

@@ -28,6 +28,9 @@ void read_notched_beam(const SetContext& s, const Place& set, DataSet& out);
 void read_peak_load(const SetContext& s, const Place& set, DataSet& out);
 void read_scene(const SetContext& s, const Place& set, DataSet& out);
 void read_semicircular_bend(const SetContext& s, const Place& set, DataSet& out);
+void read_compact_tension(const SetContext& s, const Place& set, DataSet& out);
+void read_wedge_splitting(const SetContext& s, const Place& set, DataSet& out);
+void read_double_cantilever(const SetContext& s, const Place& set, DataSet& out);
 
 /// The data set at `set`; nothing when there is a problem.
 [[nodiscard]] std::optional<DataSet> read_data_set(const SetContext& s, const Place& set);

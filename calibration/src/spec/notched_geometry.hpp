@@ -1,4 +1,4 @@
-// The geometry of a bending specimen in a specification.
+// The geometry of a notched specimen in a specification.
 #pragma once
 
 #include "data_set_reader.hpp"
@@ -9,7 +9,7 @@ namespace fpz::calibration::detail {
 /// The specimen that the member "geometry" of `object` describes; problems are recorded.
 [[nodiscard]] NotchedSpecimen read_geometry(const SetContext& s, const Place& object, SpecimenShape shape);
 
-/// How large a load of this specimen may be, by the bending stress that it means.
+/// How large a load of this specimen may be, by the stress that it means.
 [[nodiscard]] Typical typical_load(const NotchedSpecimen& specimen);
 
 }  // namespace fpz::calibration::detail

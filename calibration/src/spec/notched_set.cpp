@@ -1,4 +1,4 @@
-// Data sets of the kinds "notched_beam" and "semicircular_bend": load against a gauge's reading.
+// Data sets of notched specimens with a straight crack in mode I: load against a gauge's reading.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -21,73 +21,43 @@ const char* label_of(Gauge gauge) {
       return "Deflection";
     case Gauge::deflection_mid_depth:
       return "Deflection at mid-depth";
+    case Gauge::load_line_opening:
+      return "Opening on the load line";
   }
   return "";
 }
 
-constexpr std::array<std::string_view, 9> beam_keys = {
-    "unit", "depth", "thickness", "span", "load_span", "notch", "length", "roller_width", "clip_gauge_distance"};
-constexpr std::array<std::string_view, 7> disc_keys = {"unit",  "radius",       "thickness",          "span",
-                                                       "notch", "roller_width", "clip_gauge_distance"};
 constexpr std::array<std::string_view, 6> nuisance_keys = {"value", "start", "unit", "lower", "upper", "prior"};
 constexpr std::array<std::string_view, 2> prior_keys = {"mean", "deviation"};
 constexpr std::array<std::string_view, 2> slope_keys = {"from", "to"};
 constexpr std::array<std::string_view, 1> work_keys = {"weight"};
 
-}  // namespace
+/// The gauges that a specimen has, in the order in which columns are looked for.
+std::vector<Gauge> gauges_of(SpecimenShape shape) {
+  if (is_pulled_open(shape)) return {Gauge::cmod, Gauge::load_line_opening, Gauge::deflection_load_point};
+  return {Gauge::cmod, Gauge::deflection_load_point, Gauge::deflection_mid_depth};
+}
 
-NotchedSpecimen read_geometry(const SetContext& s, const Place& set, SpecimenShape shape) {
-  const Context& c = s.c;
-  NotchedSpecimen g;
-  g.shape = shape;
-  g.setting = s.setting;
-  const JsonValue* geometry = c.reader.required(set, "geometry");
-  if (geometry == nullptr) return g;
-  const Place at(set, *geometry);
-  if (!c.reader.object(at, "the lengths of the specimen")) return g;
-  const std::size_t before = c.reader.problems().size();
-  const bool beam = shape == SpecimenShape::beam;
-  c.reader.known_keys(at, beam ? std::span<const std::string_view>(beam_keys) : disc_keys);
-  const auto unit = read_unit(c, at, Quantity::length);
-  if (!unit) return g;
-  const auto needed = [&](std::string_view key, const Typical& t) {
-    return read_member(c, at, key, *unit, t, true).value_or(0.0);
-  };
-  g.thickness = needed("thickness", typical::small_size);
-  g.span = needed("span", typical::specimen_size);
-  g.notch = read_member(c, at, "notch", *unit, typical::small_size, true, beam).value_or(0.0);
-  if (beam) {
-    g.depth = needed("depth", typical::specimen_size);
-    const auto length = read_member(c, at, "length", *unit, typical::specimen_size, false);
-    g.length = length.value_or(g.span + g.depth);  // what overhangs carries nothing
-    g.load_span = read_member(c, at, "load_span", *unit, typical::specimen_size, false, true).value_or(0.0);
-  } else {
-    g.radius = needed("radius", typical::specimen_size);
+/// The vertical load of the machine that drives a wedge, in place of what splits the specimen.
+constexpr std::string_view vertical_load = "vertical_load";
+
+/// Turns the load of the machine into that of the specimen: P = P_v/(2 tan of the half angle).
+void to_splitting_force(const Context& c, const Place& set, const NotchedSpecimen& g, DataSet& out) {
+  if (g.wedge_slope == 0.0) {
+    return c.problem(set, "\"vertical_load\" needs \"wedge_half_angle_deg\" in the geometry");
   }
-  g.roller_width = read_member(c, at, "roller_width", *unit, typical::small_size, false, true).value_or(0.0);
-  g.clip_gauge_distance =
-      read_member(c, at, "clip_gauge_distance", *unit, typical::small_size, false, true).value_or(0.0);
-  if (c.reader.problems().size() != before) return g;
-  const Validation found = validate(g);
-  for (const Violation& v : found.errors) c.problem(at, v.field + " = " + io::exact(v.value) + " m: " + v.constraint);
-  for (const Violation& v : found.warnings) c.warn(at, v.field + " = " + io::exact(v.value) + " m: " + v.constraint);
-  return g;
+  out.measured /= 2.0 * g.wedge_slope;
+  out.deviation /= 2.0 * g.wedge_slope;
 }
 
-/// By the nominal bending stress 1.5 P (span - load_span)/(thickness ligament^2).
-Typical typical_load(const NotchedSpecimen& g) {
-  const double per_load = 1.5 * g.arms() / (g.thickness * g.ligament() * g.ligament());
-  return scaled(typical::bending_stress, Quantity::force, per_load);
-}
-
-namespace {
-
-void judge_load(const SetContext& s, const Place& set, const NotchedSpecimen& g, double largest) {
-  const Typical t = typical_load(g);
+void judge_load(const SetContext& s, const Place& set, std::string_view name, const NotchedSpecimen& g,
+                double largest) {
+  Typical t = typical_load(g);
+  if (name == vertical_load) t = scaled(t, Quantity::force, 0.5 / g.wedge_slope);
   const JsonValue* given = set.value().find("columns");
   if (given == nullptr) given = set.value().find("values");
   const Place columns(set, *given);
-  const Place at(columns, *given->find("load"));
+  const Place at(columns, *given->find(name));
   const Unit unit = read_unit(s.c, at, Quantity::force).value_or(units(Quantity::force).front());
   s.c.judge(at, "the largest load, for a specimen of this size,", {largest, largest / unit.factor, unit.name}, t);
 }
@@ -203,21 +173,29 @@ std::string micrometres(double metres) {
 
 /// Says so when the rise does not start at the origin and nothing in the specification takes care of that.
 void judge_rise(const SetContext& s, const Place& set, const NotchedData& data, const DataSet& out) {
-  const bool cmod = data.test.gauge == Gauge::cmod;
+  const bool opening = is_opening(data.test.gauge);
   if (const JsonValue* given = set.value().find("nuisance")) {
     for (const std::string_view shift : {"cmod_offset", "deflection_offset", "toe"}) {
       if (given->find(shift) != nullptr) return;
     }
   }
   const std::optional<RiseIntercept> rise = rise_intercept(out.abscissa, out.measured);
-  if (!rise || !rise->beyond_zero) return;
-  s.c.warn(set, "the straight part of the rise (" + io::exact(rise->from) + " to " + io::exact(rise->to) +
-                    " of the peak load) meets zero load at " + micrometres(rise->reading) + ", not at zero: " +
-                    (cmod ? "the gauge was not zeroed. Fit \"nuisance\": {\"cmod_offset\": {\"unit\": \"um\"}}"
-                          : "slack, or a toe of settling rollers. Fit \"nuisance\": {\"deflection_offset\": {\"unit\": "
-                            "\"um\"}}, or "
-                            "for a curved beginning {\"toe\": {\"unit\": \"um\"}, \"toe_load\": {\"unit\": \"N\"}}") +
-                    ", or subtract it; as it is, the fit takes it for compliance, and young_modulus comes out too low");
+  if (!rise) {
+    s.c.warn(
+        set,
+        "there are too few points on the rise (four are needed between 0.2 and 0.7 of the peak load) to see whether "
+        "it starts at the origin; slack or a toe would be taken for compliance, and young_modulus come out too low");
+    return;
+  }
+  if (!rise->beyond_zero) return;
+  s.c.warn(set,
+           "the straight part of the rise (" + io::exact(rise->from) + " to " + io::exact(rise->to) +
+               " of the peak load) meets zero load at " + micrometres(rise->reading) + ", not at zero: " +
+               (opening ? "the gauge was not zeroed. Fit \"nuisance\": {\"cmod_offset\": {\"unit\": \"um\"}}"
+                        : "slack, or a toe of settling rollers. Fit \"nuisance\": {\"deflection_offset\": {\"unit\": "
+                          "\"um\"}}, or "
+                          "for a curved beginning {\"toe\": {\"unit\": \"um\"}, \"toe_load\": {\"unit\": \"N\"}}") +
+               ", or subtract it; as it is, the fit takes it for compliance, and young_modulus comes out too low");
 }
 
 void read_slope_part(const SetContext& s, const Place& set, NotchedData& data) {
@@ -268,21 +246,28 @@ void read_notched(const SetContext& s, const Place& set, SpecimenShape shape, Da
   test.specimen = read_geometry(s, set, shape);
   read_slope_part(s, set, data);
   std::vector<Wanted> gauges;
-  for (const Word<Gauge>& word : Words<Gauge>::list) gauges.push_back({word.text, Quantity::length});
+  const std::vector<Gauge> known = gauges_of(shape);
+  for (const Gauge gauge : known) gauges.push_back({to_string(gauge), Quantity::length});
+  std::vector<Wanted> loads = {{"load", Quantity::force}};
+  if (shape == SpecimenShape::wedge_splitting) loads.push_back({vertical_load, Quantity::force});
   const auto which = which_column(c, set, gauges);
-  if (!which) return;
-  test.gauge = Words<Gauge>::list[*which].value;
-  const std::array<Wanted, 2> wanted = {gauges[*which], Wanted{"load", Quantity::force}};
+  const auto which_load = which ? which_column(c, set, loads) : std::nullopt;
+  if (!which_load) return;
+  test.gauge = known[*which];
+  const std::array<Wanted, 2> wanted = {gauges[*which], loads[*which_load]};
   auto curve = read_curve(c, s.folder, set, {wanted, 1, 0, 4});
   if (!curve || c.reader.problems().size() != before) return;
   take_curve(*curve, 0, 1, out);
+  const double machine = out.measured.maxCoeff();
+  if (wanted[1].name == vertical_load) to_splitting_force(c, set, test.specimen, out);
+  if (c.reader.problems().size() != before) return;
   const double largest = out.measured.maxCoeff();
   if (!(largest > 0.0)) {
     return c.problem(set,
-                     "no load is positive; loads that bend the specimen are positive: if the machine counts them "
+                     "no load is positive; loads that open the crack are positive: if the machine counts them "
                      "negative, give the column \"scale\": -1");
   }
-  judge_load(s, set, test.specimen, largest);
+  judge_load(s, set, wanted[1].name, test.specimen, machine);
   judge_reading(s, set, wanted[0].name, out.abscissa.cwiseAbs().maxCoeff());
   test.readings = out.abscissa;
   const Validation found = validate(test);
@@ -303,6 +288,18 @@ void read_notched_beam(const SetContext& s, const Place& set, DataSet& out) {
 
 void read_semicircular_bend(const SetContext& s, const Place& set, DataSet& out) {
   read_notched(s, set, SpecimenShape::semicircular, out);
+}
+
+void read_compact_tension(const SetContext& s, const Place& set, DataSet& out) {
+  read_notched(s, set, SpecimenShape::compact_tension, out);
+}
+
+void read_wedge_splitting(const SetContext& s, const Place& set, DataSet& out) {
+  read_notched(s, set, SpecimenShape::wedge_splitting, out);
+}
+
+void read_double_cantilever(const SetContext& s, const Place& set, DataSet& out) {
+  read_notched(s, set, SpecimenShape::double_cantilever, out);
 }
 
 }  // namespace fpz::calibration::detail

@@ -29,6 +29,7 @@ class ParameterReader {
 
   ParameterEntries read() {
     read_base();
+    read_quantities();
     read_fit();
     read_own();
     for (std::size_t k = 0; k < io::material_keys.size(); ++k) require_value(io::material_keys[k].name);
@@ -50,14 +51,18 @@ class ParameterReader {
         c_.reader, at, [this](const Place& name) { return io::load_named_material(c_.reader, name, folder_); });
     has_base_ = true;
     if (!base) return;
-    base_name_ = base->name;
     spec_.choices = base->parameters.choices;
-    spec_.conversions = base->conversions;
-    c_.warnings.insert(c_.warnings.end(), base->warnings.begin(), base->warnings.end());
+    take_material(*base);
+    base_ = base;
+  }
+
+  void take_material(const io::MaterialFile& material) {
+    spec_.conversions = material.conversions;
+    c_.warnings.insert(c_.warnings.end(), material.warnings.begin(), material.warnings.end());
     for (std::size_t k = 0; k < io::material_keys.size(); ++k) {
       const std::string_view name = io::material_keys[k].name;
-      const double x = base->parameters.*io::material_keys[k].member;
-      const io::Location& where = base->locations[k];
+      const double x = material.parameters.*io::material_keys[k].member;
+      const io::Location& where = material.locations[k];
       set(name, x, where);
       if (x == 0.0 && may_be_zero(name)) continue;
       const Typical typical = typical_parameter(name);
@@ -68,6 +73,92 @@ class ParameterReader {
         c_.warnings.push_back(where.file + ':' + std::to_string(where.line) + ": " + text);
       }
     }
+  }
+
+  /// Quantities that stand for parameters, such as a compressive strength, under "parameters": what a material file
+  /// with the same entries states, fitted parameters by their starts.
+  void read_quantities() {
+    const JsonValue* own = root_.value().find("parameters");
+    if (own == nullptr || !own->is(Kind::object)) return;
+    if (std::none_of(own->items.begin(), own->items.end(), [](const JsonValue& m) { return is_alternative(m.key); })) {
+      return;
+    }
+    if (has_base_ && !base_) return;  // complained about already
+    const JsonValue stated = plain_values(*own);
+    const Place at(root_, stated);
+    const auto material = with_quantities(at, c_.reader);
+    has_base_ = true;
+    if (!material) return;
+    refuse_conversions_of_fitted(*own, material->parameters);
+    take_material(*material);
+  }
+
+  std::optional<io::MaterialFile> with_quantities(const Place& at, const InputReader& reader) const {
+    return base_ ? io::read_difference(reader, at, *base_) : io::read_material(reader, at, "parameters");
+  }
+
+  /// What follows from a quantity is worked out once. Where a fitted parameter enters, that would be wrong at every
+  /// other value of it.
+  void refuse_conversions_of_fitted(const JsonValue& own, const Parameters& at_start) {
+    constexpr double nudge = 1.001;
+    io::Problems unused(1000);
+    const InputReader quiet(c_.reader.file(), c_.reader.limits(), unused);
+    for (const auto& fitted : io::material_keys) {
+      if (!is_fitted(fitted.name)) continue;
+      JsonValue moved = plain_values(own);
+      std::erase_if(moved.items, [&fitted](const JsonValue& m) { return m.key == fitted.name; });
+      JsonValue& value = moved.items.emplace_back();
+      value.kind = Kind::number;
+      value.key = fitted.name;
+      value.number = nudge * (at_start.*fitted.member);
+      value.text = io::exact(value.number);
+      const auto material = with_quantities(Place(root_, moved), quiet);
+      if (!material) continue;
+      for (const auto& key : io::material_keys) {
+        if (key.name == fitted.name || material->parameters.*key.member == at_start.*key.member) continue;
+        c_.problem(Place(root_, own), std::string(fitted.name) + " is fitted, and " + std::string(key.name) +
+                                          " follows from it by a quantity that is stated; state " +
+                                          std::string(key.name) + " itself, or give the quantity as a data set");
+      }
+    }
+  }
+
+  static bool is_alternative(std::string_view key) {
+    const auto all = io::material_alternatives();
+    return std::any_of(all.begin(), all.end(), [key](const auto& a) { return key == a.key || key == a.symbol; });
+  }
+
+  /// By its name in "fit" or by a start under "parameters".
+  [[nodiscard]] bool is_fitted(std::string_view name) const {
+    const JsonValue* own = root_.value().find("parameters");
+    const JsonValue* entry = own != nullptr ? own->find(name) : nullptr;
+    if (entry != nullptr && entry->is(Kind::object) && entry->find("start") != nullptr) return true;
+    const JsonValue* list = root_.value().find("fit");
+    if (list == nullptr || !list->is(Kind::array)) return false;
+    return std::any_of(list->items.begin(), list->items.end(),
+                       [name](const JsonValue& item) { return item.is(Kind::string) && item.text == name; });
+  }
+
+  /// An entry of "parameters" as it would stand in a material file.
+  static JsonValue plain_value(const JsonValue& entry) {
+    JsonValue out = entry;
+    if (!entry.is(Kind::object)) return out;
+    std::erase_if(out.items, [](const JsonValue& m) {
+      return m.key == "lower" || m.key == "upper" || m.key == "prior" || m.key == "from_initial_slope" ||
+             m.key == "as_prior";
+    });
+    for (JsonValue& m : out.items) {
+      if (m.key == "start") m.key = "value";
+    }
+    return out;
+  }
+
+  static JsonValue plain_values(const JsonValue& own) {
+    JsonValue out = own;
+    for (JsonValue& m : out.items) m = plain_value(m);
+    // What an initial slope gives has no value yet.
+    std::erase_if(out.items, [](const JsonValue& m) { return m.is(Kind::object) && m.find("value") == nullptr; });
+    return out;
   }
 
   void set(std::string_view name, double x, const io::Location& where) {
@@ -121,6 +212,7 @@ class ParameterReader {
     auto known = all_names();
     const auto choices = io::choice_keys();
     known.insert(known.end(), choices.begin(), choices.end());
+    for (const io::MaterialAlternative& a : io::material_alternatives()) known.insert(known.end(), {a.key, a.symbol});
     c_.reader.known_keys(at, known);
     io::read_choices(c_.reader, at, spec_.choices);
     for (const JsonValue& member : own->items) {
@@ -264,7 +356,7 @@ class ParameterReader {
   const Place& root_;
   Specification& spec_;
   ParameterEntries entries_;
-  std::string base_name_;
+  std::optional<io::MaterialFile> base_;
   bool has_base_ = false;
   bool has_density_ = false;
   std::array<bool, parameter_count> has_value_{};

@@ -18,8 +18,15 @@ using Words = std::vector<std::string_view>;
 /// Words by which a column is known, in lower case; single letters must be the whole name.
 Words words_for(const std::string& what) {
   if (what == "load") return {"load", "force", "kraft", "last", "p", "f"};
-  if (what == "cmod") return {"cmod", "cod", "mouth", "clip", "opening", "ffnung"};
+  if (what != "deflection") return {"cmod", "cod", "mouth", "clip", "opening", "ffnung"};
   return {"deflection", "displacement", "durchbiegung", "stroke", "weg"};
+}
+
+/// The argument that says it.
+std::string option_for(const std::string& key) {
+  std::string option = "--" + key;
+  std::replace(option.begin(), option.end(), '_', '-');
+  return option;
 }
 
 bool is_known_by(const std::string& name, const Words& words) {
@@ -44,29 +51,31 @@ std::size_t find_column(const io::Table& table, const std::string& what, const Q
   if (!name.empty() && name.find_first_not_of("0123456789") == std::string::npos && !table.index(name)) {
     const auto number = static_cast<std::size_t>(std::stoul(name.substr(0, 6)));
     if (number >= 1 && number <= table.columns.size()) return number - 1;
-    throw InputError("--" + what + " " + name + ": " + table.origin + " has " + std::to_string(table.columns.size()) +
-                     " columns");
+    throw InputError(option_for(what) + " " + name + ": " + table.origin + " has " +
+                     std::to_string(table.columns.size()) + " columns");
   }
   if (!name.empty()) {
     const auto index = table.index(name);
-    if (!index) throw InputError("--" + what + " " + name + ": " + table.no_column(name));
+    if (!index) throw InputError(option_for(what) + " " + name + ": " + table.no_column(name));
     return *index;
   }
   std::vector<std::size_t> found;
   for (std::size_t k = 0; k < table.names.size(); ++k) {
+    if (what == "load" && is_known_by(table.names[k], words_for("cmod"))) continue;  // "load line opening"
     if (is_known_by(table.names[k], words_for(what))) found.push_back(k);
   }
   if (found.size() == 1) return found.front();
   throw InputError(table.origin + ": " + (found.empty() ? "no column is" : "several columns may be") + " the " + what +
-                   "; say --" + what + " with the name or the number of one of " + list_of(table));
+                   "; say " + option_for(what) + " with the name or the number of one of " + list_of(table));
 }
 
 /// The column as a specification names it. What it is in must be known from the file or from the arguments.
 Json column_json(const io::Table& table, const std::string& what, const QuickColumn& given) {
   const std::size_t k = find_column(table, what, given);
   if (given.unit.empty() && table.units[k].empty()) {
-    throw InputError(table.origin + " does not say what column " + io::in_quotes(table.names[k]) + " is in; say --" +
-                     what + "-unit, such as --" + what + "-unit " + (what == "load" ? "kN" : "mm"));
+    throw InputError(table.origin + " does not say what column " + io::in_quotes(table.names[k]) + " is in; say " +
+                     option_for(what) + "-unit, such as " + option_for(what) + "-unit " +
+                     (what == "load" ? "kN" : "mm"));
   }
   const auto& values = table.columns[k];
   const double largest = *std::max_element(values.begin(), values.end(), [](double a, double b) { return a < b; });
@@ -90,14 +99,13 @@ Json column_json(const io::Table& table, const std::string& what, const QuickCol
 Json geometry_json(const QuickFit& fit) {
   std::vector<io::Written> values;
   for (const auto& [key, text] : fit.lengths) {
-    std::string option = "--" + key;
-    std::replace(option.begin(), option.end(), '_', '-');
-    values.push_back(io::written_in(text, io::Quantity::length, option));
+    values.push_back(io::written_in(text, io::Quantity::length, option_for(key)));
   }
   const bool one_unit =
       std::all_of(values.begin(), values.end(), [&](const io::Written& v) { return v.unit == values.front().unit; });
   Json j = {{"unit", one_unit && !values.empty() ? std::string(values.front().unit) : "m"}};
   for (std::size_t k = 0; k < values.size(); ++k) j[fit.lengths[k].first] = one_unit ? values[k].number : values[k].si;
+  if (fit.wedge_half_angle_deg) j["wedge_half_angle_deg"] = *fit.wedge_half_angle_deg;
   return j;
 }
 
@@ -141,7 +149,7 @@ std::string quick_specification(const QuickFit& fit, const fs::path& folder) {
   set["file"] = fs::absolute(fit.data).lexically_normal().lexically_relative(here).generic_string();
   put_table_options(set, fit.table);
   set["columns"] = {{fit.gauge, column_json(table, fit.gauge, fit.reading)},
-                    {"load", column_json(table, "load", fit.load)}};
+                    {fit.wedge_half_angle_deg ? "vertical_load" : "load", column_json(table, "load", fit.load)}};
   Json j = {{"name", stem.substr(0, 100)}, {"setting", fit.setting}, {"parameters", parameters_json(fit)}};
   j["notes"] =
       "Made by fpz-calibrate from the arguments of a command. Assumed: density, cohesion, friction and dilation angle "

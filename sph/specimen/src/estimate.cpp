@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <ctime>
 #include <sstream>
 
 #include "fpz/io/input_error.hpp"
@@ -95,12 +96,14 @@ Estimate estimate(const Scene& scene, const Specimen& specimen, int threads) {
   };
   for (int k = 0; k < 3; ++k) step();  // warm
   const auto start = std::chrono::steady_clock::now();
+  const std::clock_t processor = std::clock();
   long long n = 0;
   while (seconds(start) < 0.5) {
     step();
     ++n;
   }
   e.step_seconds = seconds(start) / static_cast<double>(n);
+  e.step_processor_seconds = static_cast<double>(std::clock() - processor) / CLOCKS_PER_SEC / static_cast<double>(n);
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   e.memory = 1024.0 * static_cast<double>(usage.ru_maxrss);

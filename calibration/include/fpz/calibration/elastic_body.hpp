@@ -22,19 +22,27 @@ struct NodeShare {
   double share = 0.0;
 };
 
-/// One half (x >= 0) of a specimen that is symmetric about x = 0, in eight-node quadrilaterals. The face with the notch
-/// is at y = 0, the load comes from above.
+/// A force on a node of the half, over the load P of the whole specimen.
+struct NodeForce {
+  int node = 0;
+  Eigen::Vector2d force = Eigen::Vector2d::Zero();
+};
+
+/// One half (x >= 0) of a specimen that is symmetric about x = 0, in eight-node quadrilaterals. The notch comes from
+/// below, in the direction of y. Between the forces and what the ligament carries the half is in equilibrium.
 struct HalfMesh {
   std::vector<Eigen::Vector2d> nodes;  ///< m
   std::vector<std::array<int, 8>>
       elements;               ///< four corners counterclockwise, then the sides' middles from corner 0 on
-  std::vector<int> mid_line;  ///< nodes on x = 0 from the face upwards, corners and middles in turn
+  std::vector<int> mid_line;  ///< nodes on x = 0 from the mouth of the notch up, corners and middles in turn
   /// Index in mid_line of the notch tip, even and at least 4, or 0 without a notch; the ligament starts there.
   int tip = 0;
-  int mid_depth = 0;  ///< node on the mid-line at half depth
-  std::vector<NodeShare> load;
-  std::vector<NodeShare> support;
-  double thickness = 0.0;  ///< m
+  std::vector<NodeForce> forces;    ///< on the half; what they have in y is in equilibrium, or is taken by `held`
+  int held = 0;                     ///< node that does not move in y: it takes the rigid motion
+  std::vector<NodeShare> support;   ///< of beams and half discs: what deflections are relative to; otherwise empty
+  int mid_depth = 0;                ///< of beams and half discs: node on the mid-line at half depth
+  std::optional<double> load_line;  ///< of specimens that are pulled open: height of the line of the forces, m
+  double thickness = 0.0;           ///< m
 };
 
 /// Measured displacements, in the order of the rows of CondensedBody::gauge_jump.
@@ -42,10 +50,18 @@ enum class Gauge : int {
   /// Opening of the notch at its mouth (or at the clip gauge below it), m. Without a notch the opening of the crack at
   /// the face.
   cmod,
-  deflection_mid_depth,   ///< of the mid-line at half depth, relative to the supports, downwards, m
-  deflection_load_point,  ///< of the load, relative to the supports, downwards, m: its work is P d(deflection)
+  deflection_mid_depth,  ///< of the mid-line at half depth, relative to the supports, downwards, m
+  /// Of the load, relative to the supports, downwards, m; of specimens that are pulled open, what the points of the two
+  /// forces move apart. Its work is P d(deflection).
+  deflection_load_point,
+  /// Of specimens that are pulled open: opening of the notch on the line of the forces, m. Where that line lies before
+  /// the mouth, the flanks go on straight.
+  load_line_opening,
 };
-inline constexpr int gauge_count = 3;
+inline constexpr int gauge_count = 4;
+
+/// Across the notch, without supports or machine in between.
+[[nodiscard]] inline bool is_opening(Gauge gauge) { return gauge == Gauge::cmod || gauge == Gauge::load_line_opening; }
 
 }  // namespace fpz::calibration
 
@@ -53,8 +69,10 @@ inline constexpr int gauge_count = 3;
 template <>
 struct fpz::Words<fpz::calibration::Gauge> {
   using K = calibration::Gauge;
-  static constexpr Word<K> list[] = {
-      {K::cmod, "cmod"}, {K::deflection_load_point, "deflection"}, {K::deflection_mid_depth, "deflection_mid_depth"}};
+  static constexpr Word<K> list[] = {{K::cmod, "cmod"},
+                                     {K::deflection_load_point, "deflection"},
+                                     {K::deflection_mid_depth, "deflection_mid_depth"},
+                                     {K::load_line_opening, "load_line_opening"}};
 };
 
 namespace fpz::calibration {
@@ -75,7 +93,7 @@ struct Condensation {
   Eigen::VectorXd area;               ///< of the ligament that each node stands for, m^2
 };
 
-/// Condenses the half body. `clip_distance` (m): the gauge sits on knife edges that far below the face.
+/// Condenses the half body. `clip_distance` (m): the gauge sits on knife edges that far before the mouth of the notch.
 [[nodiscard]] Condensation condense(const HalfMesh& mesh, Setting setting, double poisson_ratio, double clip_distance,
                                     bool nu_derivative);
 

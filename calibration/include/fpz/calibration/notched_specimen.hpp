@@ -1,5 +1,6 @@
-// Beams in three- and four-point bending, notched or not, and semicircular specimens at zero notch angle: an elastic
-// body with a straight cohesive crack along its plane of symmetry, in pure mode I (eq 43-50).
+// Beams in three- and four-point bending, notched or not, semicircular specimens at zero notch angle, and specimens
+// that two opposite forces pull open: an elastic body with a straight cohesive crack along its plane of symmetry, in
+// pure mode I (eq 43-50).
 #pragma once
 
 #include <Eigen/Core>
@@ -17,16 +18,28 @@
 namespace fpz::calibration {
 
 enum class SpecimenShape {
-  beam,         ///< rectangle on two supports, notch from below or none, one load on top or two
-  semicircular  ///< half disc, flat side down on two supports, notch from the flat side, load on top
+  beam,              ///< rectangle on two supports, notch from below or none, one load on top or two
+  semicircular,      ///< half disc, flat side down on two supports, notch from the flat side, load on top
+  compact_tension,   ///< rectangle that two pins in holes beside the notch pull open (ASTM E399, E1820)
+  wedge_splitting,   ///< the same without holes, with a groove if you like, and perhaps what the wedge presses down
+  double_cantilever  ///< the same, long in the direction of the notch
 };
+
+/// Two opposite forces P, beside the notch and square to it.
+[[nodiscard]] inline bool is_pulled_open(SpecimenShape shape) {
+  return shape != SpecimenShape::beam && shape != SpecimenShape::semicircular;
+}
 
 }  // namespace fpz::calibration
 
 template <>
 struct fpz::Words<fpz::calibration::SpecimenShape> {
   using K = calibration::SpecimenShape;
-  static constexpr Word<K> list[] = {{K::beam, "beam"}, {K::semicircular, "semicircular"}};
+  static constexpr Word<K> list[] = {{K::beam, "beam"},
+                                     {K::semicircular, "semicircular"},
+                                     {K::compact_tension, "compact_tension"},
+                                     {K::wedge_splitting, "wedge_splitting"},
+                                     {K::double_cantilever, "double_cantilever"}};
 };
 
 namespace fpz::calibration {
@@ -44,37 +57,48 @@ struct MeshDensity {
 /// Geometry of a test, SI.
 struct NotchedSpecimen {
   SpecimenShape shape = SpecimenShape::beam;
-  double length = 0.0;     ///< of the beam, m (semicircular: unused)
-  double depth = 0.0;      ///< of the beam, m (semicircular: unused)
-  double radius = 0.0;     ///< of the half disc, m (beam: unused)
-  double thickness = 0.0;  ///< m
-  double span = 0.0;       ///< between the supports, m
-  double load_span = 0.0;  ///< of the beam: between the two loads of P/2, m; 0: one load P
-  double notch = 0.0;      ///< length of the notch from the face, m; a beam may have none
+  double length = 0.0;  ///< of the beam, m; pulled open: across the notch (semicircular: unused)
+  double depth = 0.0;  ///< of the beam, m; pulled open: from the face with the notch to the back (semicircular: unused)
+  double radius = 0.0;      ///< of the half disc, m (others: unused)
+  double thickness = 0.0;   ///< m
+  double span = 0.0;        ///< between the supports, m; pulled open: between the two forces
+  double load_span = 0.0;   ///< of the beam: between the two loads of P/2, m; 0: one load P
+  double notch = 0.0;       ///< from the face to the tip, m; a beam may have none
+  double load_depth = 0.0;  ///< pulled open: from the face to the line of the forces, m
+  double hole = 0.0;  ///< compact tension: diameter of the holes, on whose outer halves the forces act, m; 0: none
+  double groove_width = 0.0;  ///< wedge splitting: groove in the face, m; 0: none
+  double groove_depth = 0.0;  ///< m
+  double wedge_slope = 0.0;   ///< wedge splitting: force in the direction of the notch, on each side, over P
   /// Load and supports: 0 puts them on points; otherwise they are even pressures over this width (m), and deflections
   /// are means over it. A wide roller shortens the lever arms: the load rises by about roller_width/(2 span). A point
   /// indents an elastic body without limit, so the deflection (not the load and the CMOD) depends on the elements
   /// there: at the supports a little, with MeshDensity::support_fraction; under the load so much that
-  /// Gauge::deflection_load_point is refused.
+  /// Gauge::deflection_load_point is refused. Pulled open without holes: height over which each force is even.
   double roller_width = 0.0;
-  double clip_gauge_distance = 0.0;  ///< of the clip gauge below the face, m
+  double clip_gauge_distance = 0.0;  ///< of the clip gauge before the mouth of the notch, m
   Setting setting = Setting::plane_strain;
   MeshDensity mesh;
 
-  /// Depth of the beam or radius of the half disc, m.
-  [[nodiscard]] double height() const { return shape == SpecimenShape::beam ? depth : radius; }
+  /// From the face with the notch to the other side: depth, or radius of the half disc, m.
+  [[nodiscard]] double height() const { return shape == SpecimenShape::semicircular ? radius : depth; }
   [[nodiscard]] double ligament() const { return height() - notch; }
   /// P (span - load_span)/4 is the bending moment at mid-span. m
   [[nodiscard]] double arms() const { return span - load_span; }
+  /// Largest bending stress on the ligament per load, with the pull of specimens that are pulled open, 1/m^2.
+  [[nodiscard]] double nominal_stress() const;
   [[nodiscard]] bool operator==(const NotchedSpecimen&) const = default;
 };
 
 /// The lengths that similar specimens have in proportion.
 inline constexpr double NotchedSpecimen::*in_plane_lengths[] = {
-    &NotchedSpecimen::length,       &NotchedSpecimen::depth,
-    &NotchedSpecimen::radius,       &NotchedSpecimen::span,
-    &NotchedSpecimen::load_span,    &NotchedSpecimen::notch,
-    &NotchedSpecimen::roller_width, &NotchedSpecimen::clip_gauge_distance};
+    &NotchedSpecimen::length,       &NotchedSpecimen::depth,        &NotchedSpecimen::radius,
+    &NotchedSpecimen::span,         &NotchedSpecimen::load_span,    &NotchedSpecimen::notch,
+    &NotchedSpecimen::load_depth,   &NotchedSpecimen::hole,         &NotchedSpecimen::groove_width,
+    &NotchedSpecimen::groove_depth, &NotchedSpecimen::roller_width, &NotchedSpecimen::clip_gauge_distance};
+
+/// The specimen of ASTM E399 and E1820: `width` W from the line of the pins to the back, notch of length `notch` from
+/// that line (m), 1.2 W across, holes of W/4 at 0.275 W beside the notch and W/4 below the face.
+[[nodiscard]] NotchedSpecimen compact_tension(double width, double notch, double thickness);
 
 /// Everything wrong with a geometry, in one pass.
 [[nodiscard]] Validation validate(const NotchedSpecimen& specimen);
@@ -113,7 +137,7 @@ struct NotchedSpecimenTest {
 /// Everything wrong with a test, its specimen included.
 [[nodiscard]] Validation validate(const NotchedSpecimenTest& test);
 
-/// Properties of a test set-up that a fit may have to find: of CMOD tests `cmod_offset`; of deflection tests
+/// Properties of a test set-up that a fit may have to find: of openings `cmod_offset`; of deflection tests
 /// `machine_compliance`, `deflection_offset`, `toe` and `toe_load`. Control says how the reading follows from them.
 struct NuisanceInfo {
   std::string_view name;
@@ -137,6 +161,7 @@ struct FractureCurve {
   std::vector<double> cmod;                   ///< m
   std::vector<double> deflection_mid_depth;   ///< m
   std::vector<double> deflection_load_point;  ///< m; meaningful for roller_width > 0
+  std::vector<double> load_line_opening;      ///< m; of specimens that are pulled open
   std::vector<double> crack_length;           ///< from the notch tip to the highest cracked point, m
   std::vector<double> fracture_work;          ///< spent on the crack so far, J
   std::vector<double> elastic_energy;         ///< of the body, J

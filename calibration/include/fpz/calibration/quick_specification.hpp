@@ -1,4 +1,4 @@
-// A specification made from a few arguments: one bending test, its lengths and its curve.
+// A specification made from a few arguments: one notched specimen, its lengths and its curve.
 #pragma once
 
 #include <filesystem>
@@ -18,10 +18,11 @@ struct QuickColumn {
 };
 
 struct QuickFit {
-  std::string kind = "notched_beam";                         ///< or "semicircular_bend"
+  std::string kind = "notched_beam";                         ///< or another kind with a "geometry"
   std::filesystem::path data;                                ///< relative to the current folder
   std::string gauge = "cmod";                                ///< what the reading is, as in specifications
   std::vector<std::pair<std::string, std::string>> lengths;  ///< key of the geometry, and "100mm"
+  std::optional<double> wedge_half_angle_deg;  ///< of wedge splitting: the load is then the vertical one of the machine
   QuickColumn reading, load;
   std::string young_modulus;  ///< "30GPa"; empty: fitted
   double poisson_ratio = 0.2;
