@@ -24,7 +24,7 @@ std::vector<Vec<double, Dim>> area_vectors(const RunSetup<Dim>& setup) {
   for (Field& u : p.velocity) std::fill(u.begin(), u.end(), 0.0);
   for (std::size_t i = 0; i < p.count; ++i) {
     const detail::Full l = {p.correction[0][i], p.correction[2][i], p.correction[3][i], p.correction[1][i]};
-    const detail::Full t = detail::flux_of(1.0, 0.0, {1.0, 1.0, 0.0}, l);
+    const detail::Full t = detail::flux_of(1.0, 0.0, detail::Symmetric{1.0, 1.0, 0.0}, l);
     p.flux[0][i] = t.xx, p.flux[1][i] = t.xy, p.flux[2][i] = t.yx, p.flux[3][i] = t.yy;
   }
   detail::View<Dim> view = run.view;

@@ -182,7 +182,7 @@ void BondRows<Dim>::set_flux(std::size_t i, const Symmetric& stress) {
   Particles<Dim>& p = run_.particles;
   const Full l = {p.correction[0][i], p.correction[2][i], p.correction[3][i], p.correction[1][i]};
   const Stretch now = run_.stretch(i);
-  const Full t = flux_of(now.cosine, now.sine, stress, l);
+  const Full t = flux_of(now.cosine, now.sine, work_conjugate(stress, now.strain), l);
   p.flux[0][i] = t.xx;
   p.flux[1][i] = t.xy;
   p.flux[2][i] = t.yx;

@@ -5,6 +5,8 @@
 #include <map>
 #include <utility>
 
+#include "sort_unique.hpp"
+
 namespace fpz::sph::detail {
 
 namespace {
@@ -46,8 +48,7 @@ void Contact<Dim>::find_members() {
   for (const ContactPoint<Dim>& point : points_) {
     for_each_particle(point, [&](std::size_t i, double) { slots.push_back(i); });
   }
-  std::sort(slots.begin(), slots.end());
-  slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
+  sort_unique(slots);
   members_.clear();
   for (const std::size_t i : slots) {
     Member& m = members_.emplace_back(Member{i, Vector::Zero(), Vector::Zero()});
@@ -154,7 +155,7 @@ bool Contact<Dim>::meet() {
     any = any || point.of_face;
     if (!point.of_face) {
       others.push_back(std::move(point));
-    } else if (!point.force.isZero(0.0)) {
+    } else if (point.pressure > 0.0) {
       const std::size_t face = point.side[0].particle[0];
       pressing.emplace(face, std::pair(std::move(point), std::move(places_[k])));
     }
@@ -171,7 +172,6 @@ bool Contact<Dim>::meet() {
     } else {
       const ContactPoint<Dim>& old = same->second.first;
       point.room = old.room, point.slip = old.slip, point.pressure = old.pressure, point.shear = old.shear;
-      point.force = old.force;
       going_on.push_back(points_.size());
       before.push_back(std::move(same->second.second));
     }
@@ -230,32 +230,46 @@ void Contact<Dim>::look(const ContactPoint<Dim>& point, Place& place) const {
     distance += s.weight * u;
     slope += s.slope * u;
   }
-  const Vector left(-point.normal[1], point.normal[0]);
-  place.tangent = (left + slope).normalized();
+  const Vector along = Vector(-point.normal[1], point.normal[0]) + slope;
+  const double length = along.norm();
+  place.tangent = along / length;
   place.normal = Vector(place.tangent[1], -place.tangent[0]);
-  place.gap = place.normal.dot(distance) + point.room;
+  const double apart = place.normal.dot(distance);
+  place.gap = apart + point.room;
   place.shift = place.tangent.dot(distance);
+  for (Share& s : place.shares) {
+    s.press = (s.weight - place.shift * s.slope / length) * place.normal;
+    s.drag = s.weight * place.tangent + (apart * s.slope / length) * place.normal;
+  }
 }
 
 template <int Dim>
-Vec<double, Dim> Contact<Dim>::motion(const ContactPoint<Dim>& point) const {
+void Contact<Dim>::look_at_all() {
+  for (std::size_t k = 0; k < points_.size(); ++k) look(points_[k], places_[k]);
+}
+
+template <int Dim>
+void Contact<Dim>::find_motion(Place& place) const {
   const Particles<Dim>& p = run_.particles;
-  Vector sum = Vector::Zero();
-  for_each_particle(point,
-                    [&](std::size_t i, double weight) { sum += weight * Vector(p.velocity[0][i], p.velocity[1][i]); });
-  return run_.dt * sum;
+  place.closing = place.sliding = 0.0;
+  for (const Share& s : place.shares) {
+    const std::size_t i = members_[s.member].slot;
+    const Vector way = run_.dt * Vector(p.velocity[0][i], p.velocity[1][i]);
+    place.closing += s.press.dot(way);
+    place.sliding += s.drag.dot(way);
+  }
 }
 
 template <int Dim>
 void Contact<Dim>::book() {
-  for (const ContactPoint<Dim>& point : points_) taken_ -= 0.5 * point.force.dot(motion(point));
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    find_motion(places_[k]);
+    taken_ += half_work(points_[k], places_[k]);
+  }
 }
 
 template <int Dim>
 bool Contact<Dim>::prepare() {
-  const auto look_at_all = [this] {
-    for (std::size_t k = 0; k < points_.size(); ++k) look(points_[k], places_[k]);
-  };
   look_at_all();
   const bool slid = follow_slip();
   if (meet() || slid) look_at_all();
@@ -264,7 +278,7 @@ bool Contact<Dim>::prepare() {
     ContactPoint<Dim>& point = points_[k];
     point.slip = point.law.slip_at(places_[k].gap, places_[k].shift, point.slip);
     if (point.of_face) follow(point, places_[k]);
-    places_[k].motion = run_.started ? motion(point) : Vector::Zero();
+    if (run_.started) find_motion(places_[k]);
     touching = touching || point.pressure > 0.0;
   }
   return touching;
@@ -273,10 +287,12 @@ bool Contact<Dim>::prepare() {
 template <int Dim>
 void Contact<Dim>::push() {
   for (std::size_t k = 0; k < points_.size(); ++k) {
-    const Vector force = points_[k].pressure * places_[k].normal + points_[k].shear * places_[k].tangent;
-    for_each_particle(points_[k], [&](std::size_t i, double weight) {
-      for (std::size_t c = 0; c < run_.dimensions; ++c) run_.outer_force[c][i] += weight * force[static_cast<int>(c)];
-    });
+    for (const Share& s : places_[k].shares) {
+      const Vector force = points_[k].pressure * s.press + points_[k].shear * s.drag;
+      for (std::size_t c = 0; c < run_.dimensions; ++c) {
+        run_.outer_force[c][members_[s.member].slot] += force[static_cast<int>(c)];
+      }
+    }
   }
 }
 
@@ -297,27 +313,29 @@ template <int Dim>
 void Contact<Dim>::find_gives(Place& place, double step) const {
   place.normal_give = place.shear_give = 0.0;
   for (const Share& s : place.shares) {
-    const Vector give = s.weight * s.weight * step * run_.dt * members_[s.member].inverse_mass;
-    place.normal_give += place.normal.cwiseAbs2().dot(give);
-    place.shear_give += place.tangent.cwiseAbs2().dot(give);
+    const Vector give = step * run_.dt * members_[s.member].inverse_mass;
+    place.normal_give += s.press.cwiseAbs2().dot(give);
+    place.shear_give += s.drag.cwiseAbs2().dot(give);
   }
 }
 
 template <int Dim>
 double Contact<Dim>::correct(ContactPoint<Dim>& point, const Place& place, double step) {
-  Vector speed = Vector::Zero();
-  for (const Share& s : place.shares) speed += s.weight * members_[s.member].velocity;
+  double opening = 0.0, sliding = 0.0;  // m/s
+  for (const Share& s : place.shares) {
+    opening += s.press.dot(members_[s.member].velocity);
+    sliding += s.drag.dot(members_[s.member].velocity);
+  }
   // Without the forces of this point.
-  const double gap = place.gap + run_.dt * place.normal.dot(speed) - place.normal_give * point.pressure;
-  const double shift = place.shift + run_.dt * place.tangent.dot(speed) - place.shear_give * point.shear;
+  const double gap = place.gap + run_.dt * opening - place.normal_give * point.pressure;
+  const double shift = place.shift + run_.dt * sliding - place.shear_give * point.shear;
   const double pressure = point.law.implicit_pressure(gap, place.normal_give);
   if (point.pressure == 0.0 && pressure == 0.0) return 0.0;
   const double shear = point.law.implicit_shear(shift - point.slip, place.shear_give, pressure);
   const double more = pressure - point.pressure, more_shear = shear - point.shear;
-  const Vector impulse = step * (more * place.normal + more_shear * place.tangent);
   for (const Share& s : place.shares) {
     Member& m = members_[s.member];
-    m.velocity += s.weight * m.inverse_mass.cwiseProduct(impulse);
+    m.velocity += step * m.inverse_mass.cwiseProduct(more * s.press + more_shear * s.drag);
   }
   point.pressure = pressure;
   point.shear = shear;
@@ -329,18 +347,18 @@ double Contact<Dim>::correct(ContactPoint<Dim>& point, const Place& place, doubl
 template <int Dim>
 void Contact<Dim>::apply(ContactPoint<Dim>& point, const Place& place, double step) {
   Particles<Dim>& p = run_.particles;
-  const Vector force = point.pressure * place.normal + point.shear * place.tangent;
-  taken_ -= 0.5 * force.dot(place.motion);
-  point.force = force;
-  const Vector more = force - (place.pressure * place.normal + place.shear * place.tangent);
-  if (more.isZero(0.0)) return;
-  for_each_particle(point, [&](std::size_t i, double weight) {
-    for (std::size_t c = 0; c < run_.dimensions; ++c) {
-      const double acceleration = weight * p.inverse_mass[i] * more[static_cast<int>(c)];
-      p.acceleration[c][i] += acceleration;
-      p.velocity[c][i] += step * acceleration;
+  taken_ += half_work(point, place);
+  const double more = point.pressure - place.pressure, more_shear = point.shear - place.shear;
+  if (more == 0.0 && more_shear == 0.0) return;
+  for (const Share& s : place.shares) {
+    const std::size_t i = members_[s.member].slot;
+    const Vector acceleration = p.inverse_mass[i] * (more * s.press + more_shear * s.drag);
+    for (int c = 0; c < Dim; ++c) {
+      const auto k = static_cast<std::size_t>(c);
+      p.acceleration[k][i] += acceleration[c];
+      p.velocity[k][i] += step * acceleration[c];
     }
-  });
+  }
 }
 
 template <int Dim>
@@ -399,6 +417,7 @@ void Contact<Dim>::load(Reader& archive) {
   archive(points_);
   faces_.load(archive);
   find_members();
+  look_at_all();
 }
 
 template class Contact<2>;

@@ -51,11 +51,12 @@ class Contact {
     Vector velocity;
     Vector inverse_mass;  ///< 1/kg, zero of components that are prescribed
   };
-  /// Part of a point's force that a member takes: positive on side 1.
+  /// What the displacement of a member does to the places of a point, positive on side 1.
   struct Share {
     std::size_t member;
     double weight;
-    double slope;  ///< 1/m: what its displacement turns the face by
+    double slope;                                 ///< 1/m: what it turns the face by
+    Vector press = Vector::Zero(), drag = press;  ///< derivatives of gap and shift: its part of pressure and shear
   };
   /// A point as the particles lie at n.
   struct Place {
@@ -64,7 +65,7 @@ class Contact {
     double gap = 0.0, shift = 0.0;               ///< m
     double normal_give = 0.0, shear_give = 0.0;  ///< m/N: what a newton adds to gap and shift at n + 1
     double pressure = 0.0, shear = 0.0;          ///< N, of the step before
-    Vector motion = Vector::Zero();              ///< m, of the last step: by what the distance has grown
+    double closing = 0.0, sliding = 0.0;         ///< m, of the last step: by what gap and shift have grown
   };
 
   void find_prescribed(const Boundaries<Dim>& boundaries);
@@ -81,10 +82,15 @@ class Contact {
   void follow(ContactPoint<Dim>& point, Place& place) const;
   /// Points whose particles have changed go on at the gap and the shift that they had.
   void go_on(const std::vector<std::size_t>& changed, const std::vector<Place>& before);
-  /// By how much the distance of a point's places has grown in the last step, m.
-  [[nodiscard]] Vector motion(const ContactPoint<Dim>& point) const;
-  /// Gap and shift of a point whose shares are known.
+  /// By how much gap and shift have grown in the last step.
+  void find_motion(Place& place) const;
+  /// J, that the forces of a point take over half of the last step.
+  [[nodiscard]] static double half_work(const ContactPoint<Dim>& point, const Place& place) {
+    return -0.5 * (point.pressure * place.closing + point.shear * place.sliding);
+  }
+  /// Gap and shift of a point whose shares are known, and their derivatives.
   void look(const ContactPoint<Dim>& point, Place& place) const;
+  void look_at_all();
   void predict(double step);
   void find_gives(Place& place, double step) const;
   /// Pressure and shear of one point with what the others have done so far; the size of the change, N.

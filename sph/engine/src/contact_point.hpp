@@ -31,10 +31,9 @@ struct ContactPoint {
                           ///< that of side 1
   ContactLaw law;
 
-  double slip = 0.0;                                  ///< m
-  double pressure = 0.0;                              ///< N, of the last kick
-  double shear = 0.0;                                 ///< N, likewise, on side 1 to the left of the normal
-  Vec<double, Dim> force = Vec<double, Dim>::Zero();  ///< N, both, on side 1
+  double slip = 0.0;      ///< m
+  double pressure = 0.0;  ///< N, of the last kick
+  double shear = 0.0;     ///< N, likewise, on side 1 to the left of the normal
 };
 
 template <class Archive, class S>
@@ -46,7 +45,7 @@ template <class Archive, class P>
 void transfer(Archive& archive, P& p) requires std::same_as<std::remove_const_t<P>, ContactPoint<2>> {
   archive(p.side), archive(p.normal), archive(p.at_start), archive(p.room), archive(p.of_crack), archive(p.of_face);
   archive(p.law.normal_stiffness), archive(p.law.shear_stiffness), archive(p.law.friction);
-  archive(p.slip), archive(p.pressure), archive(p.shear), archive(p.force);
+  archive(p.slip), archive(p.pressure), archive(p.shear);
 }
 
 /// Spacings: of the particles that a place of a face moves with, two rows and a half.

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "across_crack.hpp"
 #include "crack_bands.hpp"
+#include "sort_unique.hpp"
 
 namespace fpz::sph::detail {
 
@@ -15,8 +17,7 @@ constexpr double narrow_from = 0.02;  // damage
 
 template <int Dim>
 void CrackRows<Dim>::write(std::vector<std::size_t>& changed) {
-  std::sort(changed.begin(), changed.end());
-  changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
+  sort_unique(changed);
   for (const std::size_t i : changed) rows_.rewrite(i);
   stability_.keep(changed);
 }
@@ -100,25 +101,9 @@ void CrackRows<Dim>::forget(std::size_t i) {
 
 template <int Dim>
 std::vector<int> CrackRows<Dim>::released_by(std::size_t i) const {
-  const Particles<Dim>& p = run_.particles;
-  const CohesiveState<double, Dim>& crack = p.point[i].crack;
   std::vector<int> cut;
-  if (!(crack.jump[0] > 0.0)) return cut;
-  // The crack's normal in the undeformed body.
-  const double nx = p.point[i].frame(0, 0);
-  const double ny = p.point[i].frame(0, 1);
-  for (const int neighbour : rows_.neighbours(i)) {
-    const auto j = static_cast<std::size_t>(neighbour);
-    const double rx = p.start[0][j] - p.start[0][i];
-    const double ry = p.start[1][j] - p.start[1][i];
-    // Displacement of j seen from i, turned back by the rotation of i.
-    const double gx = p.position[0][j] - p.position[0][i];
-    const double gy = p.position[1][j] - p.position[1][i];
-    const double ux = p.rotation[0][i] * gx + p.rotation[1][i] * gy - rx;
-    const double uy = p.rotation[0][i] * gy - p.rotation[1][i] * gx - ry;
-    const double along = nx * rx + ny * ry;
-    const double opening = (nx * ux + ny * uy) * (along < 0.0 ? -1.0 : 1.0);
-    if (opening >= 0.5 * crack.jump[0]) cut.push_back(neighbour);
+  for (const int j : rows_.neighbours(i)) {
+    if (is_across_crack(run_.particles, i, static_cast<std::size_t>(j))) cut.push_back(j);
   }
   return cut;
 }

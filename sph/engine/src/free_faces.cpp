@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "fpz/sph/kernel.hpp"
+#include "sort_unique.hpp"
 
 namespace fpz::sph::detail {
 
@@ -168,8 +169,7 @@ template <int Dim>
 void FreeFaces<Dim>::refit(const std::vector<ReleasedBond<Dim>>& released) {
   std::vector<std::size_t> touched;
   for (const ReleasedBond<Dim>& bond : released) touched.push_back(bond.from), touched.push_back(bond.to);
-  std::sort(touched.begin(), touched.end());
-  touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+  sort_unique(touched);
   const auto is_touched = [&](const FreeFace<Dim>& face) {
     return std::binary_search(touched.begin(), touched.end(), face.particle);
   };

@@ -99,12 +99,24 @@ FPZ_LANE Symmetric rotated(double c, double s, const Symmetric& a) {
 }
 
 /// R a L^T, row-major: the flux that the force sums.
-FPZ_LANE Full flux_of(double c, double s, const Symmetric& a, const Full& l) {
-  const double xx = c * a.xx - s * a.xy;
+FPZ_LANE Full flux_of(double c, double s, const Full& a, const Full& l) {
+  const double xx = c * a.xx - s * a.yx;
   const double xy = c * a.xy - s * a.yy;
-  const double yx = s * a.xx + c * a.xy;
+  const double yx = s * a.xx + c * a.yx;
   const double yy = s * a.xy + c * a.yy;
   return {xx * l.xx + xy * l.xy, xx * l.yx + xy * l.yy, yx * l.xx + yy * l.xy, yx * l.yx + yy * l.yy};
+}
+
+FPZ_LANE Full flux_of(double c, double s, const Symmetric& a, const Full& l) { return flux_of(c, s, full(a), l); }
+
+/// R^T P, P:dF being the work s:dU of a stress s in the axes of U = I + e, F = R U. With dF = dR U + R dU and
+/// R^T dR = w J, w tr U is the skew part of R^T dF: that does the work of w s:(J U), which is zero where s has the axes
+/// of U, as in an elastic body, and not where a crack turns them.
+FPZ_LANE Full work_conjugate(const Symmetric& s, const Symmetric& e) {
+  constexpr double least = 0.5;  // of tr U, 2 in the undeformed body
+  const double trace = 2.0 + e.xx + e.yy;
+  const double skew = (s.xy * (e.xx - e.yy) - e.xy * (s.xx - s.yy)) / (trace > least ? trace : least);
+  return {s.xx, s.xy + skew, s.xy - skew, s.yy};
 }
 
 /// -epsilon times the tensile part of a stress: what repels particles along tensile principal directions.

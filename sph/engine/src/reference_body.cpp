@@ -2,13 +2,13 @@
 
 #include <algorithm>
 
+#include "across_crack.hpp"
 #include "chunks.hpp"
 
 namespace fpz::sph::detail {
 
 namespace {
-// Openings grow slowly; steps between searches for open bonds, and between changes of H:
-constexpr long long release_interval = 16;
+// Steps between changes of H: openings grow slowly.
 constexpr long long band_interval = 4;
 }  // namespace
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <random>
 
+#include "sort_unique.hpp"
+
 namespace fpz::sph::detail {
 
 namespace {
@@ -17,11 +19,6 @@ constexpr double takes_part = 0.3;
 constexpr int most_rounds = 20;
 /// Steps of the Lanczos method: the largest eigenvalue to a percent.
 constexpr int lanczos_steps = 16;
-
-void sort_unique(std::vector<std::size_t>& a) {
-  std::sort(a.begin(), a.end());
-  a.erase(std::unique(a.begin(), a.end()), a.end());
-}
 }  // namespace
 
 /// Particles that may move, those whose strain they change, and the entries of the latters' rows.

@@ -10,7 +10,7 @@ namespace fpz::sph {
 
 namespace {
 
-constexpr std::uint64_t magic = 0x434850535a5046ULL;  // "FPZSPHC"; the last letter is the version
+constexpr std::uint64_t magic = 0x444850535a5046ULL;  // "FPZSPHD"; the last letter is the version
 
 /// Adds the options on which the result depends.
 struct OptionPrint {

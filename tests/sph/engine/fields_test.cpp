@@ -90,7 +90,7 @@ TEST_P(Fields, ConstantOnesDoNotChange) {
     ++constant;
     EXPECT_TRUE(same_bits(field, after.at(name))) << name;
   }
-  EXPECT_EQ(constant, e.control ? 5U : 4U);  // start, mass, inverse_mass, damping; zero_energy_fit
+  EXPECT_EQ(constant, 4U);  // start, mass, inverse_mass, damping
 }
 
 /// Read back into a fresh run, saved and constant fields are there and passing ones are not; after as many further

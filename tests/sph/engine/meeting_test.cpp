@@ -215,29 +215,41 @@ TEST(Meeting, DiscsTouchAsWideAsHertzSays) {
               1e3 * hertz, force, 0.5 * sum * spacing, 1e6 * run.overlap());
 }
 
-/// A bar is torn apart; its upper part is moved aside by six spacings and put down again on what it did not face.
-TEST(Meeting, ABrokenPieceLandsElsewhere) {
+/// A bar is torn apart by `opening`; its upper part is lifted, moved aside by six spacings and put down again on what
+/// it did not face.
+RunSetup<2> torn_and_moved(double opening) {
   RunSetup<2> s = block(16, 30);
   s.parameters = concrete();
+  s.parameters.choices.cohesive_zone = CohesiveZone::consistent;  // debris: the published one gives energy
   s.options.damping = 0.05;
   s.arrangement.cuts = {Cut<2>{{vec(-spacing, 15.0 * spacing), vec(4.2 * spacing, 15.0 * spacing)}, {false, true}}};
   s.arrangement.cuts[0].friction = 0.7;
   add_group(s, {"bottom", {Motion{}, Motion{}}, true}, [](const Vector& x) { return x[1] < 2.0 * spacing; });
-  const TimeTable up{{0.0, 1e-3, 1.5e-3, 3e-3, 4e-3}, {0.0, 300e-6, 3e-3, 3e-3, 1.1e-3}, true, 0.0};
+  const TimeTable up{{0.0, 1e-3, 1.5e-3, 3e-3, 4e-3}, {0.0, opening, 3e-3, 3e-3, 0.0}, true, 0.0};
   const TimeTable aside{{0.0, 1.5e-3, 3e-3}, {0.0, 0.0, 6e-3}, true, 0.0};
   add_group(s, {"top", {Drive(Drive::Kind::displacement, aside), Drive(Drive::Kind::displacement, up)}, true},
             [](const Vector& x) { return x[1] > 28.0 * spacing; });
-  Simulation<2> run(s);
-  advance_to(run, 3e-3);
-  EXPECT_GT(run.released_bonds(), 50);
-  EXPECT_LT(run.energies().contact, 1e-4 * run.energies().fracture);
-  advance_to(run, 3.95e-3);
-  // Ten columns bear, more than sixteen did in tension; their rough faces are crushed.
-  EXPECT_GT(-mean_force_until(run, 4e-3)[1], 16.0 * spacing * s.parameters.tensile_strength);
-  EXPECT_LT(run.overlap(), 0.02 * spacing);
-  EXPECT_LT(std::abs(run.energies().error()), 0.01 * run.energies().external);
-  std::printf("force %.4g N, overlap %.3g um, error %.3g of the work\n", -run.reaction(1)[1], 1e6 * run.overlap(),
-              run.energies().error() / run.energies().external);
+  return s;
+}
+
+/// Ten columns bear, more than sixteen did in tension; their rough faces are crushed. How much is chance: the mean of
+/// some bars, which are torn differently.
+TEST(Meeting, ABrokenPieceLandsElsewhere) {
+  double force = 0.0, error = 0.0, work = 0.0;
+  for (const double opening : {280e-6, 300e-6, 320e-6}) {
+    const RunSetup<2> s = torn_and_moved(opening);
+    Simulation<2> run(s);
+    advance_to(run, 3e-3);
+    EXPECT_GT(run.released_bonds(), 50);
+    EXPECT_LT(run.energies().contact, 0.01 * run.energies().fracture);  // debris
+    advance_to(run, 3.95e-3);
+    force -= mean_force_until(run, 4e-3)[1] / 3.0;
+    EXPECT_LT(run.overlap(), 0.02 * spacing);
+    error += std::abs(run.energies().error()), work += run.energies().external;
+  }
+  EXPECT_GT(force, 16.0 * spacing * concrete().tensile_strength);
+  EXPECT_LT(error, 5e-3 * work);
+  std::printf("force %.4g N, error %.3g of the work\n", force, error / work);
 }
 
 TEST(Meeting, ThreadsAndSnapshotsDoNotChangeABit) {

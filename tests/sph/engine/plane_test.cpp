@@ -72,6 +72,29 @@ TEST_P(Plane, OnsetTestIsThatOfTheLibrary) {
   EXPECT_GT(outside, samples / 10);
 }
 
+/// The work of the force is that of any stress over the change of the stretch, by differences of the polar
+/// decomposition; and its moment vanishes.
+TEST(WorkConjugate, DoesTheWorkOfStressAndStretch) {
+  std::mt19937_64 rng{5};
+  std::uniform_real_distribution<double> some(-1.0, 1.0);
+  using Matrix = Mat<double, 2, 2>;
+  const auto random = [&](double size) { return Matrix::NullaryExpr([&] { return size * some(rng); }).eval(); };
+  const auto stretch = [](const Matrix& b) { return detail::polar(b(0, 0), b(0, 1), b(1, 0), b(1, 1)); };
+  for (int k = 0; k < 200; ++k) {
+    const Matrix b = random(0.4), step = random(1e-6);
+    const detail::Symmetric s = {some(rng), some(rng), some(rng)};
+    const detail::Stretch before = stretch(b - step), at = stretch(b), after = stretch(b + step);
+    const double expected = s.xx * (after.strain.xx - before.strain.xx) + s.yy * (after.strain.yy - before.strain.yy) +
+                            2.0 * s.xy * (after.strain.xy - before.strain.xy);
+    const detail::Full one = {1.0, 0.0, 0.0, 1.0};
+    const detail::Full p = detail::flux_of(at.cosine, at.sine, detail::work_conjugate(s, at.strain), one);
+    const Matrix force = (Matrix() << p.xx, p.xy, p.yx, p.yy).finished();
+    EXPECT_NEAR(force.cwiseProduct(2.0 * step).sum(), expected, 1e-14);
+    const Matrix cauchy = force * (Matrix::Identity() + b).transpose();
+    EXPECT_NEAR(cauchy(0, 1), cauchy(1, 0), 1e-14);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Settings, Plane, testing::Values(Setting::plane_strain, Setting::plane_stress),
                          [](const auto& setting) { return std::string(to_string(setting.param)); });
 

@@ -50,7 +50,7 @@ double pull(fpz::sph::Simulation<2>& run, double speed, double time) {
 
 struct Opened {
   double strength = 0.0;  ///< over that of the joint
-  double energy = 0.0;    ///< over its G, up to the integrity at which bonds are cut
+  double energy = 0.0;    ///< work that does not come back, over its G up to the integrity at which bonds are cut
 };
 Opened open_joint(const Specimen& s) {
   const fpz::Parameters& m = s.setup.weak_planes.parameters.front();
@@ -59,7 +59,8 @@ Opened open_joint(const Specimen& s) {
   o.strength = pull(run, 0.002, 0.8e-3) / m.tensile_strength;
   (void)pull(run, 0.01, 0.8e-3 + 6.0 * m.delta0 / 0.02);
   const double to_the_cut = 1.0 - s.setup.options.release_integrity;
-  o.energy = run.energies().fracture / (to_the_cut * m.tensile_strength * m.delta0 * width);
+  const fpz::sph::Energies e = run.energies();
+  o.energy = (e.external - e.elastic - e.kinetic) / (to_the_cut * m.tensile_strength * m.delta0 * width);
   return o;
 }
 
