@@ -55,15 +55,15 @@ double standard_k(double a) {
 
 /// E' thickness CMOD/P at the face (Saxena and Hudak 1978, stated accuracy 0.5 %).
 double standard_cmod(double a) {
-  const double polynomial = 1.6137 + 12.678 * a - 14.231 * a * a - 16.61 * std::pow(a, 3) + 35.05 * std::pow(a, 4) -
-                            14.494 * std::pow(a, 5);
+  const double polynomial =
+      1.6137 + 12.678 * a - 14.231 * a * a - 16.61 * std::pow(a, 3) + 35.05 * std::pow(a, 4) - 14.494 * std::pow(a, 5);
   return (1.0 + 0.25 / a) * std::pow((1.0 + a) / (1.0 - a), 2) * polynomial;
 }
 
 /// The same on the line of the pins (ASTM E1820).
 double standard_opening(double a) {
-  const double polynomial = 2.163 + 12.219 * a - 20.065 * a * a - 0.9925 * std::pow(a, 3) + 20.609 * std::pow(a, 4) -
-                            9.9314 * std::pow(a, 5);
+  const double polynomial =
+      2.163 + 12.219 * a - 20.065 * a * a - 0.9925 * std::pow(a, 3) + 20.609 * std::pow(a, 4) - 9.9314 * std::pow(a, 5);
   return std::pow((1.0 + a) / (1.0 - a), 2) * polynomial;
 }
 
@@ -109,8 +109,9 @@ TEST(CompactTension, PublishedFunctionIsTheStandards) {
   EXPECT_FALSE(published_geometry_function(wide));
 }
 
-/// K of an infinitely long strip, sqrt(12) P (a/h + 0.673)/(t sqrt(h)) (Foote and Buchwald 1985). The term behind a/h is
-/// the correction of beam theory for the give of the clamped end, which Williams (1989) and Krenk (1992) put at 0.645 here.
+/// K of an infinitely long strip, sqrt(12) P (a/h + 0.673)/(t sqrt(h)) (Foote and Buchwald 1985). The term behind a/h
+/// is the correction of beam theory for the give of the clamped end, which Williams (1989) and Krenk (1992) put at
+/// 0.645 here.
 TEST(DoubleCantilever, StressIntensityOfTheCorrectedBeam) {
   const double shear = 1.0 / (2.0 * (1.0 + nu));  // mu/E
   const double gamma = 1.18 / shear;
@@ -221,8 +222,8 @@ TEST(PulledOpen, EnergyBalance) {
   }
 }
 
-/// Large specimens break at the toughness of linear elastic fracture mechanics. The tail of the exponential law is long,
-/// so what is missing falls a little slower than with the size.
+/// Large specimens break at the toughness of linear elastic fracture mechanics. The tail of the exponential law is
+/// long, so what is missing falls a little slower than with the size.
 TEST(CompactTension, LargeOnesBreakAtTheToughness) {
   const Parameters p = test::mode_one_rock();
   const double toughness =

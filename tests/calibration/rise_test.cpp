@@ -139,6 +139,25 @@ TEST(Toe, IsSaidWhereItIsNotFitted) {
   EXPECT_LT(calibrate(with).parameters.young_modulus, 24e9);
 }
 
+/// Three points on the rise cannot show a toe: that is said in place of nothing.
+TEST(Toe, TooFewPointsToSeeOneAreSaid) {
+  Recorded r = record(toe, 0.0);
+  Eigen::Index top = 0;
+  const double peak = r.load.maxCoeff(&top);
+  std::vector<Eigen::Index> kept;
+  int rising = 0;
+  for (Eigen::Index k = 0; k < r.load.size(); ++k) {
+    const bool on_rise = k < top && r.load[k] > 0.1 * peak && r.load[k] < 0.7 * peak;
+    if (!on_rise || ++rising <= 3) kept.push_back(k);
+  }
+  ASSERT_GT(rising, 3);
+  r = {Eigen::VectorXd(r.deflection(kept)), Eigen::VectorXd(r.load(kept))};
+  const Specification s = specification(r, "");
+  EXPECT_TRUE(std::any_of(s.warnings.begin(), s.warnings.end(), [](const std::string& w) {
+    return w.find("too few points on the rise") != std::string::npos;
+  }));
+}
+
 TEST(Toe, IsFittedWithTheMaterial) {
   const std::string nuisance = R"(, "nuisance": {"toe": {"unit": "um"}, "toe_load": {"unit": "N"},
                                   "machine_compliance": {"value": 4e-9}})";

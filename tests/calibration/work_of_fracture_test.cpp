@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "fpz/calibration/calibration.hpp"
@@ -48,39 +49,103 @@ TEST(WorkOfFracture, TailMakesUpForAnEarlyEnd) {
   }
 }
 
-/// A beam that sags under its own weight: the machine's load is less by half the weight and counts from there, and the
-/// beam breaks by itself when the machine's load is zero.
-TEST(WorkOfFracture, WeightBreaksTheBeamAtTheEnd) {
-  const double weight = 160.0;
+/// What the machine records of a beam that sags under its own weight, which bends it as the load `dead` does: less by
+/// that and counted from there. The beam breaks by itself when the machine's load is zero.
+Curve under_weight(double dead) {
   const Curve whole = curve_down_to(rolled(), 0.02);
-  const double half = 0.5 * weight;
-  ASSERT_GT(half, whole.load[whole.load.size() - 1]);
+  EXPECT_GT(dead, whole.load[whole.load.size() - 1]);
   std::vector<double> deflection, load;
   double sag = -1.0;
   for (Eigen::Index k = 0; k < whole.load.size(); ++k) {
-    if (sag < 0.0 && whole.load[k] >= half) sag = whole.deflection[k];
+    if (sag < 0.0 && whole.load[k] >= dead) {
+      const double part = (dead - whole.load[k - 1]) / (whole.load[k] - whole.load[k - 1]);
+      sag = whole.deflection[k - 1] + part * (whole.deflection[k] - whole.deflection[k - 1]);
+    }
     if (sag < 0.0) continue;
-    if (whole.load[k] < half && whole.deflection[k] > sag) break;
+    if (whole.load[k] < dead && whole.deflection[k] > sag) break;
     deflection.push_back(whole.deflection[k] - sag);
-    load.push_back(whole.load[k] - half);
+    load.push_back(whole.load[k] - dead);
   }
   const auto n = static_cast<Eigen::Index>(load.size());
-  const Eigen::VectorXd d = Eigen::Map<const Eigen::VectorXd>(deflection.data(), n);
-  const Eigen::VectorXd p = Eigen::Map<const Eigen::VectorXd>(load.data(), n);
-  const WorkOfFracture with = work_of_fracture(d, p, area(), weight);
-  const WorkOfFracture without = work_of_fracture(d, p, area(), 0.0);
+  return {Eigen::Map<const Eigen::VectorXd>(deflection.data(), n), Eigen::Map<const Eigen::VectorXd>(load.data(), n)};
+}
+
+TEST(WorkOfFracture, WeightBreaksTheBeamAtTheEnd) {
+  const Curve c = under_weight(80.0);
+  const WorkOfFracture with = work_of_fracture(c.deflection, c.load, area(), 160.0);
+  const WorkOfFracture without = work_of_fracture(c.deflection, c.load, area(), 0.0);
   EXPECT_NEAR(with.energy, truth(), 0.03 * truth());
   EXPECT_LT(without.energy, 0.9 * truth());
+}
+
+std::string list(const Eigen::VectorXd& v, double factor) {
+  std::string out;
+  for (Eigen::Index k = 0; k < v.size(); k += 3) out += (k > 0 ? ", " : "") + std::to_string(factor * v[k]);
+  return out;
+}
+
+/// 240 N on 320 mm, 40 mm of them overhanging at each end, bend a beam of 240 mm span as 80 N in its middle do.
+TEST(SelfWeight, IsPartOfTheFit) {
+  const Curve c = under_weight(80.0);
+  const auto specification = [&](const std::string& more) {
+    return parse_specification(
+        R"({"material": {"young_modulus": 45e9, "poisson_ratio": 0.24, "density": 2400, "tensile_strength": 2.9e6,
+            "cohesion": 5e6, "friction_angle_deg": 37, "dilation_angle_deg": 5, "delta0": 12e-6,
+            "normal_stiffness": 1e14, "shear_stiffness": 1e14}, "fit": ["young_modulus", "tensile_strength", "delta0"],
+            "options": {"starts": 1, "profiles": []},
+            "data": [{"name": "beam", "kind": "notched_beam",
+              "geometry": {"unit": "mm", "depth": 80, "span": 240, "notch": 30, "thickness": 40, "length": 320,
+                           "roller_width": 4},
+              "values": {"deflection": {"unit": "um", "list": [)" +
+            list(c.deflection, 1e6) + R"(]}, "load": {"unit": "N", "list": [)" + list(c.load, 1.0) + "]}}" + more +
+            "}]}",
+        "beam.json");
+  };
+  const Calibration with = calibrate(specification(R"(, "self_weight": {"value": 240, "unit": "N"})"));
+  ASSERT_TRUE(with.result.usable()) << with.result.message;
+  const Parameters made = test::concrete();
+  EXPECT_NEAR(with.parameters.young_modulus, made.young_modulus, 0.01 * made.young_modulus);
+  EXPECT_NEAR(with.parameters.tensile_strength, made.tensile_strength, 0.01 * made.tensile_strength);
+  EXPECT_NEAR(with.parameters.delta0, made.delta0, 0.02 * made.delta0);
+  const Calibration without = calibrate(specification(""));
+  EXPECT_LT(without.parameters.tensile_strength * without.parameters.delta0, 0.9 * truth());
+  EXPECT_THROW((void)specification(R"(, "self_weight": {"value": 2400, "unit": "N"})"), io::InputError);
+}
+
+TEST(SelfWeight, DerivativesAgainstDifferences) {
+  for (const Gauge gauge : {Gauge::cmod, Gauge::deflection_load_point}) {
+    NotchedData data;
+    data.test.specimen = rolled();
+    data.test.gauge = gauge;
+    data.test.readings = Eigen::VectorXd::LinSpaced(5, 1e-5, 1e-4);
+    data.dead_load = 80.0;
+    data.fitted = {0};
+    const Eigen::VectorXd nuisance = Eigen::VectorXd::Constant(1, gauge == Gauge::cmod ? 1e-6 : 2e-9);
+    const Parameters p = test::concrete();
+    const Prediction exact = predict(data, p, nuisance, true);
+    ASSERT_TRUE(exact.ok()) << exact.failure;
+    const auto expect = [&](int column, const Eigen::VectorXd& slope) {
+      EXPECT_LE((exact.jacobian.col(column) - slope).cwiseAbs().maxCoeff(), 1e-4 * slope.cwiseAbs().maxCoeff());
+    };
+    for (const Parameter which : {Parameter::young_modulus, Parameter::poisson_ratio, Parameter::tensile_strength}) {
+      const auto member = parameter_info[static_cast<std::size_t>(which)].member;
+      const double step = 1e-4 * p.*member;
+      Parameters up = p, down = p;
+      up.*member += step;
+      down.*member -= step;
+      expect(static_cast<int>(which),
+             (predict(data, up, nuisance, false).values - predict(data, down, nuisance, false).values) / (2.0 * step));
+    }
+    const Eigen::VectorXd step = 1e-3 * nuisance;
+    expect(parameter_count,
+           (predict(data, p, nuisance + step, false).values - predict(data, p, nuisance - step, false).values) /
+               (2.0 * step[0]));
+  }
 }
 
 TEST(WorkOfFracture, StandsInTheReportBesideTheFit) {
   const NotchedSpecimen s = rolled();
   const Curve c = curve_down_to(s, 0.1);
-  const auto list = [](const Eigen::VectorXd& v, double factor) {
-    std::string out;
-    for (Eigen::Index k = 0; k < v.size(); k += 3) out += (k > 0 ? ", " : "") + std::to_string(factor * v[k]);
-    return out;
-  };
   const auto specification = [&](const std::string& gauge) {
     return parse_specification(
         R"({"material": {"young_modulus": 45e9, "poisson_ratio": 0.24, "density": 2400, "tensile_strength": 2.9e6,

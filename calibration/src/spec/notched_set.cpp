@@ -237,9 +237,35 @@ void read_work(const SetContext& s, const Place& set, NotchedData& data, const D
   if (!work->failure.empty()) s.c.problem(at, work->failure);
 }
 
+/// "self_weight": of the whole beam. By the bending moment at mid-span: w span^2/8, less w c^2/2 of what overhangs by
+/// c.
+void read_self_weight(const SetContext& s, const Place& set, NotchedData& data, const DataSet& out) {
+  const JsonValue* given = set.value().find("self_weight");
+  if (given == nullptr) return;
+  const Place at(set, *given);
+  const auto weight = read_written(s.c, at, Quantity::force);
+  if (!weight) return;
+  const NotchedSpecimen& g = data.test.specimen;
+  if (g.shape != SpecimenShape::beam) return s.c.problem(at, "is known for beams only");
+  if (!(weight->si >= 0.0)) return s.c.problem(at, "must be >= 0");
+  if (const JsonValue* n = set.value().find("nuisance"); n != nullptr && n->find("toe") != nullptr) {
+    return s.c.problem(at,
+                       "does not go together with a toe: how far the rollers have settled under the weight is open");
+  }
+  const double overhang = 0.5 * (g.length - g.span);
+  const double moment = weight->si / g.length * (0.125 * g.span * g.span - 0.5 * overhang * overhang);
+  data.dead_load = 4.0 * moment / g.arms();
+  const double peak = out.measured.maxCoeff();
+  if (std::abs(data.dead_load) > 0.3 * peak) {
+    s.c.problem(at, io::exact(weight->si) + " N bends the ligament as a load of " + io::exact(data.dead_load) +
+                        " N does, more than 0.3 of the largest load, " + io::exact(peak) + " N");
+  }
+}
+
 void read_notched(const SetContext& s, const Place& set, SpecimenShape shape, DataSet& out) {
   const Context& c = s.c;
-  c.reader.known_keys(set, set_keys({"geometry", "nuisance", "initial_slope", "work_of_fracture"}, curve_keys));
+  c.reader.known_keys(
+      set, set_keys({"geometry", "nuisance", "initial_slope", "work_of_fracture", "self_weight"}, curve_keys));
   const std::size_t before = c.reader.problems().size();
   NotchedData data;
   NotchedSpecimenTest& test = data.test;
@@ -275,6 +301,7 @@ void read_notched(const SetContext& s, const Place& set, SpecimenShape shape, Da
   read_nuisances(s, set, data, out);
   judge_rise(s, set, data, out);
   read_work(s, set, data, out);
+  read_self_weight(s, set, data, out);
   out.abscissa_axis = readable_axis(label_of(test.gauge), Quantity::length, out.abscissa.maxCoeff());
   out.value_axis = readable_axis("Load", Quantity::force, largest);
   out.test = std::move(data);
@@ -306,12 +333,40 @@ void read_double_cantilever(const SetContext& s, const Place& set, DataSet& out)
 
 namespace fpz::calibration {
 
+namespace {
+
+/// A test under a dead load is one whose zeros lie on the elastic line at that load: the gauge's offset moves by the
+/// reading there, and the loads by the dead one. `all` are the nuisance parameters, all of them.
+Prediction predict_from_dead_load(const NotchedData& data, const Parameters& p, Eigen::VectorXd all, bool derivatives) {
+  const NotchedSpecimenTest& test = data.test;
+  const auto body = test.cache->get(test.specimen, p.poisson_ratio, derivatives);
+  const int gauge = static_cast<int>(test.gauge);
+  const bool opening = is_opening(test.gauge);
+  const Eigen::Index offset = opening ? 0 : 1;
+  const double machine = opening ? 0.0 : all[0];
+  const double compliance = body->body.gauge_load[gauge] / p.young_modulus;
+  all[offset] -= (compliance + machine) * data.dead_load;
+  Prediction x = predict(test, p, all, derivatives);
+  if (!x.ok()) return x;
+  x.values.array() -= data.dead_load;
+  if (!derivatives) return x;
+  const Eigen::VectorXd by_offset = x.jacobian.col(parameter_count + offset);
+  const auto add = [&](int column, double offset_rate) { x.jacobian.col(column) += offset_rate * by_offset; };
+  add(static_cast<int>(Parameter::young_modulus), compliance / p.young_modulus * data.dead_load);
+  add(static_cast<int>(Parameter::poisson_ratio), -body->d_nu->gauge_load[gauge] / p.young_modulus * data.dead_load);
+  if (!opening) add(parameter_count, -data.dead_load);
+  return x;
+}
+
+}  // namespace
+
 Prediction predict(const NotchedData& data, const Parameters& p, const Eigen::VectorXd& nuisance, bool derivatives) {
   Eigen::VectorXd all = data.held.size() > 0
                             ? data.held
                             : Eigen::VectorXd::Zero(static_cast<Eigen::Index>(nuisances(data.test.gauge).size()));
   all(data.fitted) = nuisance;
-  Prediction x = predict(data.test, p, all, derivatives);
+  Prediction x = data.dead_load != 0.0 ? predict_from_dead_load(data, p, all, derivatives)
+                                       : predict(data.test, p, all, derivatives);
   if (!x.ok() || !derivatives) return x;
   Eigen::MatrixXd jacobian(x.values.size(), parameter_count + nuisance.size());
   jacobian.leftCols(parameter_count) = x.jacobian.leftCols(parameter_count);

@@ -25,6 +25,8 @@ struct NotchedData {
   double slope_from = 0.1;           ///< part of the rise, over the peak load, that gives the initial slope
   double slope_to = 0.4;
   std::optional<double> weight;  ///< N; where the work of fracture is wanted: see work_of_fracture()
+  /// The load that bends the ligament as the weight of the beam does, N: it was there when load and gauge were zeroed.
+  double dead_load = 0.0;
 };
 
 /// Loads at the readings; `nuisance` has the fitted ones.
