@@ -29,7 +29,8 @@ double peak_of_finite_elements(const fpz::Parameters& material, double notch) {
       nearest = static_cast<int>(i);
   }
   const double arm = 0.5 * span - mesh.nodes[static_cast<std::size_t>(nearest)].x();
-  mesh.load = {{nearest, 1.0}};
+  mesh.forces = {{nearest, {0.0, -0.5}}};
+  for (const fe::NodeShare& n : mesh.support) mesh.forces.push_back({n.node, {0.0, 0.5 * n.share}});
   const fe::Condensation body = fe::condense(mesh, beam.setting, material.poisson_ratio, 0.0, false);
   fe::MidLine path(body, material, {}, false);
   double peak = 0.0;
