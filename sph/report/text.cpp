@@ -48,7 +48,7 @@ bool write_state(std::ostream& out, const SweepRuns& sweep, const std::string& w
   if (sweep.runs.size() < sweep.planned) {
     out << "\n" << what << ": " << sweep.runs.size() << " of " << sweep.planned << " runs have ended.\n";
   }
-  if (!failed.empty()) out << "\n" << what << ", runs that failed:\n" << failed << "\n";
+  if (!failed.empty()) out << "\n" << what << ", runs that failed:\n" << failed << "\n\n";
   return !sweep.runs.empty();
 }
 

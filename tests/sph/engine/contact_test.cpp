@@ -296,7 +296,7 @@ Simulation<2> torn_and_dragged(double opening, double force) {
   Simulation<2> run(s);
   advance_to(run, 1.1e-3);
   run.set_drive(1, 1, Drive(Drive::Kind::force, TimeTable::rise(0.0, -force, 4e-4)));
-  advance_to(run, 2.5e-3);
+  advance_to(run, 1.6e-3);
   run.set_drive(1, 0, Drive(Drive::Kind::velocity, TimeTable::rise(0.0, 4.0, 2e-4)));
   return run;
 }
@@ -307,9 +307,9 @@ Simulation<2> torn_and_dragged(double opening, double force) {
 TEST(Contact, FacesOfACrackThatSlideFar) {
   constexpr double force = 2e4;
   double count = 0.0, sum = 0.0, square = 0.0, error = 0.0, work = 0.0;
-  for (double opening = 550e-6; opening < 625e-6; opening += 10e-6) {
+  for (double opening = 550e-6; opening < 615e-6; opening += 15e-6) {
     Simulation<2> run = torn_and_dragged(opening, force);
-    const Vector mean = mean_force(run, 3.2e-3, 3.4e-3);
+    const Vector mean = mean_force(run, 2.1e-3, 2.5e-3);
     EXPECT_NEAR(mean[1], -force, 0.01 * force);
     EXPECT_LT(run.overlap(), 0.01 * spacing);
     count += 1.0, sum -= mean[0] / mean[1], square += std::pow(mean[0] / mean[1], 2);
@@ -320,7 +320,7 @@ TEST(Contact, FacesOfACrackThatSlideFar) {
   const double angle = concrete().friction_angle_deg * M_PI / 180.0, slope = std::atan(1.0 / 12.0);
   EXPECT_GT(ratio, std::tan(angle - slope) - 3.0 * standard_error);
   EXPECT_LT(ratio, std::tan(angle + slope) + 3.0 * standard_error);
-  EXPECT_LT(standard_error, 0.2);
+  EXPECT_LT(standard_error, 0.25);
   EXPECT_LT(error, 1e-3 * work);
 }
 
