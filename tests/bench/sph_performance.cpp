@@ -204,57 +204,30 @@ void write_parts(std::ostream& out, const Effort& effort, double flops) {
   }
 }
 
-/// How many blocks away a block's neighbours are at most.
-detail::Index horizon(const detail::BondView<2>& bonds, detail::Index blocks) {
-  constexpr auto width = static_cast<detail::Index>(lanes);
-  detail::Index most = 0;
-  for (detail::Index b = 0; b < blocks; ++b) {
-    for (detail::Index k = width * bonds.column[b]; k < width * bonds.column[b + 1]; ++k)
-      most = std::max(most, std::abs(bonds.neighbour[k] / width - b));
-  }
-  return most;
-}
-
-/// Time of the two passes, in turn, over that of the same with fewer fields stored, in one sweep, and both: the sweep
-/// runs the force of a block as soon as all that neighbour it have their strain.
+/// Steps in two passes, in turn, over the same in one sweep.
 void write_sweeps(std::ostream& out, const Effort& effort) {
-  out << "\n## Fewer fields, one sweep\n\n"
-      << "An elastic lattice, one thread: two passes that store all fields over other forms, in turn. Lean is what "
-         "runs "
-         "do:\nrotation, strain and stress of elastic particles are stored when someone looks. One sweep is not in "
-         "use: what\nhappens between the passes (cracks, contact) needs all strains first.\n\n"
-      << "| particles | horizon, blocks | two passes, ns | lean | one sweep | both |\n"
-      << "| --- | --- | --- | --- | --- | --- |\n";
+  out << "\n## One sweep\n\n"
+      << "An elastic bar, one thread: steps in two passes over steps in one sweep, in turn.\n\n"
+      << "| particles | arrangement | two passes, ns | one sweep |\n"
+      << "| --- | --- | --- | --- |\n";
   std::vector<Size> all = sizes(effort);
   if (effort.rounds > 1) all.push_back({1120, 400});
   for (const Size& size : all) {
-    detail::Engine<2> e(bar(size.columns, size.rows, with_threads(1)), 1e-8);  // s: a tenth of what is stable
-    const std::size_t count = e.run.particles.count;
-    const auto blocks = static_cast<detail::Index>(e.run.particles.blocks());
-    detail::View<2> view = e.run.view;
-    const detail::Index far = std::max(horizon(view.bonds, blocks), horizon(view.control_bonds, blocks));
-    const auto strain = e.run.passes->strain_reference, force = e.run.passes->force_reference;
-    const auto step = [&](bool lean, bool sweep) {
-      view.lean = lean;
-      detail::Index done = 0;
-      for (detail::Index b = 0; b < blocks; b += detail::chunk_blocks) {
-        const detail::Index end = std::min(b + detail::chunk_blocks, blocks);
-        strain(view, b, end);
-        const detail::Index can = end == blocks ? blocks : sweep ? std::max(done, end - far) : done;
-        force(view, done, can);
-        done = can;
-      }
-    };
-    const auto two = [&] { step(false, false); };
-    out << "| " << count << " | " << far;
-    std::string gains;
-    double time = HUGE_VAL;
-    for (const auto& [lean, sweep] : {std::pair{true, false}, std::pair{false, true}, std::pair{true, true}}) {
-      const InTurn t = in_turn(effort, count, two, [&, lean = lean, sweep = sweep] { step(lean, sweep); });
-      time = std::min(time, t.first);
-      gains += text(" | %.2f", 1.0 / t.slower);
+    for (const Layout layout : {Layout::lattice, Layout::scattered}) {
+      if (size.columns > 600 && layout != Layout::lattice) continue;
+      const RunSetup<2> setup = bar(size.columns, size.rows, with_threads(1), layout);
+      detail::Engine<2> e(setup, 1e-8);  // s: a tenth of what is stable
+      const std::size_t count = e.run.particles.count;
+      const auto step = [&](bool in_one) {
+        e.run.in_one_sweep = in_one;
+        must(e.step());
+      };
+      const InTurn t = in_turn(
+          effort, count, [&] { step(false); }, [&] { step(true); });
+      out << "| " << count << " | " << fpz::bench::name_of(layout)
+          << text(" | %.1f", t.first * 1e9 / static_cast<double>(count)) << text(" | %.3f |\n", 1.0 / t.slower)
+          << std::flush;
     }
-    out << text(" | %.1f", time * 1e9 / static_cast<double>(count)) << gains << " |\n" << std::flush;
   }
 }
 

@@ -12,6 +12,9 @@ class AppliedLoad final : public Boundary<Dim> {
   AppliedLoad(RunData<Dim>& run, std::size_t load);
 
   void push() override;
+  void for_pushed(const std::function<void(std::size_t)>& visit) const override {
+    for (const Force& f : forces_) visit(f.slot);
+  }
   [[nodiscard]] Vec<double, Dim> reaction() const override { return factor_ * sum_; }
   [[nodiscard]] double factor() const override { return factor_; }
   void set_factor(const TimeTable& factor) override { table_ = factor; }

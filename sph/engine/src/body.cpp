@@ -11,12 +11,20 @@ void Body<Dim>::point_bonds() {
 }
 
 template <int Dim>
+void Body<Dim>::force(const View<Dim>& view) {
+  run_.for_chunks([&](Index first, Index) {
+    sweep_.finish(first / run_.chunk_blocks, [&](Index from, Index to) { force_pass_(view, from, to); });
+  });
+}
+
+template <int Dim>
 std::unique_ptr<Body<Dim>> make_body(RunData<Dim>& run) {
   if (run.setup.options.configuration == Configuration::updated) return std::make_unique<UpdatedBody<Dim>>(run);
   return std::make_unique<ReferenceBody<Dim>>(run);
 }
 
 template void Body<2>::point_bonds();
+template void Body<2>::force(const View<2>&);
 template std::unique_ptr<Body<2>> make_body<2>(RunData<2>&);
 
 }  // namespace fpz::sph::detail

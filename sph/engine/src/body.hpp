@@ -10,23 +10,30 @@
 #include "chunks.hpp"
 #include "plane.hpp"
 #include "run_data.hpp"
+#include "sweep.hpp"
 
 namespace fpz::sph::detail {
 
 template <int Dim>
 class Body {
  public:
-  explicit Body(RunData<Dim>& run) : run_(run) {}
+  Body(RunData<Dim>& run, typename Passes<Dim>::Pass force_pass) : run_(run), force_pass_(force_pass) {}
   virtual ~Body() = default;
   Body(const Body&) = delete;
   Body& operator=(const Body&) = delete;
 
   /// What the first forces need.
   virtual void start() {}
-  /// Positions from n to n + 1, strains, stresses and cracks with them. The first failure of a particle.
-  [[nodiscard]] virtual Outcome advance() = 0;
-  /// Forces at n, velocities to n + 1/2; `view` has the step of this kick.
-  virtual void force(const View<Dim>& view) = 0;
+  /// Positions from n to n + 1, strains, stresses and cracks with them. The first failure of a particle. In a step in
+  /// one sweep the velocities of most particles go on to n + 3/2 at once, as by force().
+  [[nodiscard]] virtual Outcome advance(const Kick& kick) = 0;
+  /// Forces at n, velocities to n + 1/2, of the blocks that have not gone there; `view` has the step of this kick.
+  void force(const View<Dim>& view);
+  /// Whether advance() may change the rows of bonds in this step, and with them forces anywhere.
+  [[nodiscard]] virtual bool changes_rows() const { return false; }
+  /// What the order of the blocks follows; when all bonds have been made.
+  void plan_sweep() { sweep_.plan(run_.view, run_.particles.blocks(), run_.chunk_blocks); }
+  [[nodiscard]] Sweep<Dim>& sweep() { return sweep_; }
   /// Stores strains, stresses and rotations of n where the last step has not.
   virtual void show() {}
   /// Forces of this step besides those that force() sums: whether there are any; adds them to outer_force.
@@ -63,10 +70,13 @@ class Body {
   /// Gives a particle that snaps back a shorter H, if it can.
   virtual bool shorten_band(std::size_t) { return false; }
 
+  /// Whether forces around a cracked particle may change after its update.
+  [[nodiscard]] virtual bool moves_on(std::size_t) const { return false; }
+
   /// Runs loops(first, last) and then the library on what they flagged, chunk by chunk; the first failure in the order
-  /// of the particles.
+  /// of the particles. In a step in one sweep also the forces that nothing will change.
   template <class F>
-  [[nodiscard]] Outcome strain_with(F&& loops);
+  [[nodiscard]] Outcome strain_with(const Kick& kick, F&& loops);
   void point_bonds();
 
   template <class Archive, class Self>
@@ -109,6 +119,8 @@ class Body {
   /// H of a particle whose crack has the given unit normal, m: band_width() of its neighbours, those that it still has.
   [[nodiscard]] double band_length(std::size_t i, const Vec<double, Dim>& normal) const;
 
+  typename Passes<Dim>::Pass force_pass_;
+  Sweep<Dim> sweep_;
   std::vector<Report> reports_;  ///< of the chunks
 };
 
@@ -118,11 +130,14 @@ template <int Dim>
 
 template <int Dim>
 template <class F>
-Outcome Body<Dim>::strain_with(F&& loops) {
-  reports_.resize(run_.particles.blocks() / static_cast<std::size_t>(chunk_blocks) + 1);
+Outcome Body<Dim>::strain_with(const Kick& kick, F&& loops) {
+  const View<Dim> view = run_.view_of(kick);
+  reports_.resize(run_.particles.blocks() / static_cast<std::size_t>(run_.chunk_blocks) + 1);
   run_.for_chunks([&](Index first, Index last) {
     loops(first, last);
-    reports_[static_cast<std::size_t>(first / chunk_blocks)] = update_flagged(first, last);
+    reports_[static_cast<std::size_t>(first / run_.chunk_blocks)] = update_flagged(first, last);
+    if (!sweep_.in_one()) return;
+    sweep_.strained(first / run_.chunk_blocks, [&](Index from, Index to) { force_pass_(view, from, to); });
   });
   bool more = false;
   for (const Report& r : reports_) {

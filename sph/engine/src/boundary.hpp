@@ -1,6 +1,7 @@
 // A condition on the motion of some particles: one room per kind, and one line in make_boundaries() where it is chosen.
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <memory>
 #include <vector>
@@ -22,6 +23,8 @@ class Boundary {
 
   /// Adds its forces at n to RunData::outer_force, N, in positions that are at n; their work goes to the ledger.
   virtual void push() {}
+  /// Calls visit(slot) for the particles that push() pushes.
+  virtual void for_pushed(const std::function<void(std::size_t)>& /*visit*/) const {}
   /// Velocities to n + 1/2 over `step` (s; half a time step at the start); its work goes to the ledger.
   virtual void act(double /*step*/) {}
   /// Its homogeneous form, for the frequencies of the body: zero velocity where it is prescribed.

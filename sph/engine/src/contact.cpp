@@ -79,6 +79,7 @@ void Contact<Dim>::add_shares(const ContactPoint<Dim>& point, const std::vector<
 
 template <int Dim>
 void Contact<Dim>::add(const std::vector<ReleasedBond<Dim>>& released) {
+  changes_ = true;
   faces_.refit(released);
   refit(released);
   const std::size_t first = points_.size();
@@ -113,20 +114,40 @@ void Contact<Dim>::refit(const std::vector<ReleasedBond<Dim>>& released) {
   go_on(changed, before);
 }
 
+/// So far that other particles are opposite now; or a part of that.
 template <int Dim>
-bool Contact<Dim>::follow_slip() {
+bool Contact<Dim>::has_slid(std::size_t k, double part) const {
   constexpr double far = 0.5;  // spacings
   const double spacing = run_.setup.arrangement.spacing;
-  const auto has_slid = [&](const Place& p) { return std::abs(p.shift) > far * spacing && p.gap < spacing; };
+  return !points_[k].of_face && std::abs(places_[k].shift) > part * far * spacing && part * places_[k].gap < spacing;
+}
+
+/// Looks a step ahead: what jumps further in a step is found in the step after. Points between faces that have met may
+/// always find others.
+template <int Dim>
+bool Contact<Dim>::may_change() const {
+  constexpr double nearly = 0.9;
+  bool any = faces_.search_is_due(nearly);
+  for (std::size_t k = 0; k < points_.size(); ++k) any = any || points_[k].of_face || has_slid(k, nearly);
+  return any;
+}
+
+template <int Dim>
+bool Contact<Dim>::presses() const {
+  return std::any_of(points_.begin(), points_.end(), [](const auto& point) { return point.pressure > 0.0; });
+}
+
+template <int Dim>
+bool Contact<Dim>::follow_slip() {
   bool any = false;
-  for (std::size_t k = 0; k < points_.size(); ++k) any = any || (!points_[k].of_face && has_slid(places_[k]));
+  for (std::size_t k = 0; k < points_.size(); ++k) any = any || has_slid(k);
   if (!any) return false;
   std::vector<ContactPoint<Dim>> left;
   std::vector<std::size_t> changed;
   std::vector<Place> before;
   for (std::size_t k = 0; k < points_.size(); ++k) {
     ContactPoint<Dim>& point = points_[k];
-    if (!point.of_face && has_slid(places_[k])) {
+    if (has_slid(k)) {
       const double slid = places_[k].shift;
       auto side = side_opposite(run_, point, slid);
       if (!side) continue;
@@ -271,8 +292,10 @@ void Contact<Dim>::book() {
 template <int Dim>
 bool Contact<Dim>::prepare() {
   look_at_all();
-  const bool slid = follow_slip();
-  if (meet() || slid) look_at_all();
+  if (changes_) {
+    const bool slid = follow_slip();
+    if (meet() || slid) look_at_all();
+  }
   bool touching = false;
   for (std::size_t k = 0; k < points_.size(); ++k) {
     ContactPoint<Dim>& point = points_[k];
@@ -281,6 +304,7 @@ bool Contact<Dim>::prepare() {
     if (run_.started) find_motion(places_[k]);
     touching = touching || point.pressure > 0.0;
   }
+  changes_ = may_change();
   return touching;
 }
 
@@ -418,6 +442,7 @@ void Contact<Dim>::load(Reader& archive) {
   faces_.load(archive);
   find_members();
   look_at_all();
+  changes_ = may_change();
 }
 
 template class Contact<2>;

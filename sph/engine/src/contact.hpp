@@ -23,6 +23,17 @@ class Contact {
   /// The faces of cracks, from bonds that have just been cut. Those that were pressed together touch.
   void add(const std::vector<ReleasedBond<Dim>>& released);
 
+  /// Whether prepare() may give points other particles in this step.
+  [[nodiscard]] bool changes() const { return changes_; }
+  /// Whether faces have pressed on each other in the step before.
+  [[nodiscard]] bool presses() const;
+  /// Calls visit(slot) for the particles of all faces: those that push() pushes, and whose velocities book() and
+  /// prepare() read.
+  template <class Visit>
+  void for_particles(Visit&& visit) const {
+    for (const Member& m : members_) visit(m.slot);
+  }
+
   /// Books the first half of the work of the last forces, after the positions have been moved.
   void book();
   /// Gaps at n. Whether faces have pressed on each other in the step before.
@@ -71,6 +82,8 @@ class Contact {
   void find_prescribed(const Boundaries<Dim>& boundaries);
   void find_members();
   static void add_shares(const ContactPoint<Dim>& point, const std::vector<std::size_t>& slots, Place& place);
+  [[nodiscard]] bool has_slid(std::size_t k, double part = 1.0) const;
+  [[nodiscard]] bool may_change() const;
   void refit(const std::vector<ReleasedBond<Dim>>& released);
   /// Gives points that have slid the partners that are opposite now, and drops those where nothing is; says whether
   /// there were any.
@@ -105,6 +118,7 @@ class Contact {
   std::vector<Place> places_;
   std::vector<Member> members_;
   double taken_ = 0.0;  ///< J
+  bool changes_ = true;
 };
 
 }  // namespace fpz::sph::detail

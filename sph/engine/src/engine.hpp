@@ -42,7 +42,9 @@ struct Engine {
 
  private:
   void start();
-  void kick(double step);
+  [[nodiscard]] Kick kick_over(double step);
+  void begin_sweep();
+  void finish(Kick& kick);
   [[nodiscard]] Outcome find_bad() const;
 };
 

@@ -71,9 +71,11 @@ typename Body<Dim>::Report Body<Dim>::update_flagged(Index first, Index last) {
   for_flagged(run_.flagged, begin, end, [&](std::size_t i) {
     if (i >= p.count) return false;  // padding
     const bool was = p.kind[i] == kind::cracked;
-    report.outcome = update_particle(i);
+    const Outcome outcome = update_particle(i);
+    if (report.outcome.ok()) report.outcome = outcome;
     report.has_cracked = report.has_cracked || (!was && p.kind[i] == kind::cracked);
-    return report.outcome.ok();
+    if (sweep_.in_one() && p.kind[i] == kind::cracked && moves_on(i)) sweep_.hold_around(run_.view, i);
+    return true;
   });
   return report;
 }

@@ -183,9 +183,9 @@ void FreeFaces<Dim>::refit(const std::vector<ReleasedBond<Dim>>& released) {
 }
 
 template <int Dim>
-bool FreeFaces<Dim>::search_is_due() const {
+bool FreeFaces<Dim>::search_is_due(double part) const {
   if (changed_) return true;
-  const double most = std::pow(moved * run_.setup.arrangement.spacing, 2);
+  const double most = std::pow(part * moved * run_.setup.arrangement.spacing, 2);
   for (std::size_t k = 0; k < faces_.size(); ++k) {
     if ((displacement(run_, faces_[k].particle) - searched_at_[k]).squaredNorm() > most) return true;
   }

@@ -29,8 +29,9 @@ class FreeFaces {
 
   /// After bonds have been cut.
   void refit(const std::vector<ReleasedBond<Dim>>& released);
-  /// Whether a face has moved so far since the last search, or changed, that others than then may touch.
-  [[nodiscard]] bool search_is_due() const;
+  /// Whether a face has moved so far since the last search, or changed, that others than then may touch;
+  /// or a part of that.
+  [[nodiscard]] bool search_is_due(double part = 1.0) const;
   /// Points between faces that are opposite each other and nearer than half a spacing, one for each face that has such
   /// a partner: each pair of surfaces has them from both sides, with half of the area each. Without those that were
   /// neighbours in the undeformed body and those that `facing` joins already.

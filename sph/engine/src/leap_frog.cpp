@@ -19,21 +19,27 @@ Engine<Dim>::Engine(const RunSetup<Dim>& setup, double time_step)
   if (options.configuration == Configuration::reference && options.contact_stiffness > 0.0) {
     contact.emplace(run, boundaries, body->lists());
   }
+  body->plan_sweep();
 }
 
 template <int Dim>
 Outcome Engine<Dim>::step() {
   if (!run.started) start();
   ++run.steps;
+  Kick kick = kick_over(run.dt);
+  begin_sweep();
   // 1. Positions at n + 1 (eq 31); densities, stresses and cracks there (eq 19, eq 21).
-  const Outcome outcome = body->advance();
-  if (!outcome.ok()) return outcome;
+  const Outcome outcome = body->advance(kick);
+  if (!outcome.ok()) {
+    body->force(run.view_of(kick));  // some blocks may have gone on: now all have
+    return outcome;
+  }
   if (contact) contact->book();
   if (control) control->let_go(run.dt);
   const std::vector<ReleasedBond<Dim>> released = body->take_released();
   if (contact && !released.empty()) contact->add(released);
   // 2. Forces at n + 1 (eq 20), velocities at n + 3/2 (eq 26).
-  kick(run.dt);
+  finish(kick);
   return find_bad();
 }
 
@@ -41,29 +47,49 @@ Outcome Engine<Dim>::step() {
 template <int Dim>
 void Engine<Dim>::start() {
   body->start();
-  kick(0.5 * run.dt);
+  Kick kick = kick_over(0.5 * run.dt);
+  finish(kick);
   run.started = true;
   run.ledger.kinetic_start = kinetic();
 }
 
-/// Forces at n, velocities to n + 1/2 over `step` (s).
+/// What makes velocities at n + 1/2 of forces at n, over `step` (s). Pushes are still to come.
 template <int Dim>
-void Engine<Dim>::kick(double step) {
+Kick Engine<Dim>::kick_over(double step) {
+  const double half = 0.5 * run.dt;
+  const Kick kick = {step, run.started ? half : 0.0, half, run.view.pushed || (contact && contact->presses())};
+  if (kick.pushed) run.clear_pushes();
+  return kick;
+}
+
+/// One sweep where no more than the forces of some blocks change between strains and forces: where cracks grow
+/// (Body::advance() holds them) and where particles are pushed.
+template <int Dim>
+void Engine<Dim>::begin_sweep() {
+  Sweep<Dim>& sweep = body->sweep();
+  sweep.begin(run.in_one_sweep && !body->changes_rows() && !(contact && contact->changes()));
+  if (!sweep.in_one()) return;
+  const auto hold = [&sweep](std::size_t i) { sweep.hold(i); };
+  for (const auto& boundary : boundaries) boundary->for_pushed(hold);
+  if (contact) contact->for_particles(hold);
+}
+
+/// Forces at n, velocities to n + 1/2.
+template <int Dim>
+void Engine<Dim>::finish(Kick& kick) {
   const bool touching = contact && contact->prepare();
-  View<Dim> view = run.view;
-  view.step = step;
-  view.work_before = run.started ? 0.5 * run.dt : 0.0;
-  view.work_after = 0.5 * run.dt;
-  view.pushed = view.pushed || touching || body->pushes();
-  if (view.pushed) {
-    for (Field& f : run.outer_force) std::fill(f.begin(), f.end(), 0.0);
+  if (!kick.pushed && body->pushes()) {
+    run.clear_pushes();
+    kick.pushed = true;
+  }
+  if (kick.pushed) {
     for (const auto& boundary : boundaries) boundary->push();
     if (touching) contact->push();
     body->push();
   }
-  body->force(view);
-  if (contact) contact->act(step);
-  for (const auto& boundary : boundaries) boundary->act(step);
+  body->force(run.view_of(kick));
+  if (contact) contact->act(kick.step);
+  for (const auto& boundary : boundaries) boundary->act(kick.step);
 }
 
 /// The first particle whose velocity the last kick has made too large or not finite.

@@ -13,7 +13,8 @@ constexpr long long band_interval = 4;
 }  // namespace
 
 template <int Dim>
-ReferenceBody<Dim>::ReferenceBody(RunData<Dim>& run) : Body<Dim>(run), rows_(make_rows()), crack_rows_(run, rows_) {
+ReferenceBody<Dim>::ReferenceBody(RunData<Dim>& run)
+    : Body<Dim>(run, run.passes->force_reference), rows_(make_rows()), crack_rows_(run, rows_) {
   this->builds_ = 1;
   this->point_bonds();
   if (run.setup.options.rve_length.rule == RveLength::Rule::band) bands_.emplace(run);
@@ -38,12 +39,24 @@ void ReferenceBody<Dim>::start() {
 }
 
 template <int Dim>
-Outcome ReferenceBody<Dim>::advance() {
+bool ReferenceBody<Dim>::changes_rows() const {
+  return this->run_.setup.options.release_integrity > 0.0 && this->run_.steps % release_interval == 0;
+}
+
+/// Its row is straightened, or the zero-energy control lets go of it.
+template <int Dim>
+bool ReferenceBody<Dim>::moves_on(std::size_t i) const {
+  const View<Dim>& view = this->run_.view;
+  return (bands_ && this->run_.steps % band_interval == 0) || (view.controlled && view.control_share[i] != 0.0);
+}
+
+template <int Dim>
+Outcome ReferenceBody<Dim>::advance(const Kick& kick) {
   RunData<Dim>& run = this->run_;
   View<Dim> view = run.view;
   view.lean = run.hidden = !run.watched;
   const Outcome outcome =
-      this->strain_with([&](Index first, Index last) { run.passes->strain_reference(view, first, last); });
+      this->strain_with(kick, [&](Index first, Index last) { run.passes->strain_reference(view, first, last); });
   const Options<Dim>& o = run.setup.options;
   const bool follows = bands_ && o.momentum == MomentumForm::adjoint;
   if (bands_ && run.steps % band_interval == 0) bands_->follow();
@@ -57,12 +70,6 @@ Outcome ReferenceBody<Dim>::advance() {
     this->released_ += static_cast<long long>(this->fresh_.size() - before);
   }
   return outcome;
-}
-
-template <int Dim>
-void ReferenceBody<Dim>::force(const View<Dim>& view) {
-  const auto pass = this->run_.passes->force_reference;
-  this->run_.for_chunks([&](Index first, Index last) { pass(view, first, last); });
 }
 
 template <int Dim>

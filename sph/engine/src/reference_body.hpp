@@ -17,8 +17,8 @@ class ReferenceBody final : public Body<Dim> {
   explicit ReferenceBody(RunData<Dim>& run);
 
   void start() override;
-  [[nodiscard]] Outcome advance() override;
-  void force(const View<Dim>& view) override;
+  [[nodiscard]] Outcome advance(const Kick& kick) override;
+  [[nodiscard]] bool changes_rows() const override;
   void show() override;
   [[nodiscard]] bool pushes() const override { return rows_.has_half_way(); }
   void push() override;
@@ -33,6 +33,7 @@ class ReferenceBody final : public Body<Dim> {
   void set_flux(std::size_t i, const Symmetric& stress) override;
   bool forget_crack(std::size_t i, const State<double, Dim>& state) override;
   bool shorten_band(std::size_t i) override { return bands_ && bands_->shorten(i); }
+  [[nodiscard]] bool moves_on(std::size_t i) const override;
 
  private:
   /// Fills the lists and bonds of the base.

@@ -37,11 +37,21 @@ RunData<Dim>::RunData(const RunSetup<Dim>& s, double time_step)
   update_options.method = o.method;
   h = o.smoothing_ratio * setup.arrangement.spacing;
   place_particles();
+  choose_order();
   passes = choose_passes(o, materials.differ());
   set_initial_stress();
   fields(*this, Point<Dim>{view});
   set_constants();
   std::fill_n(flagged.begin(), particles.count, 1);  // the stresses are those that are stored
+}
+
+template <int Dim>
+void RunData<Dim>::choose_order() {
+  constexpr std::size_t many = 4096, large_chunk = 64, chunks_of_a_thread = 8;
+  const std::size_t blocks = particles.blocks();
+  const auto threads = static_cast<std::size_t>(thread_count(setup.options.threads));
+  in_one_sweep = blocks >= std::max(many, large_chunk * chunks_of_a_thread * threads);
+  if (in_one_sweep) chunk_blocks = static_cast<Index>(large_chunk);
 }
 
 template <int Dim>

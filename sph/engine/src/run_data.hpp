@@ -12,10 +12,15 @@
 
 namespace fpz::sph::detail {
 
-inline constexpr Index chunk_blocks = 16;
-
 /// First particle of a block.
 [[nodiscard]] inline std::size_t lanes_begin(Index block) { return static_cast<std::size_t>(block) * lanes; }
+
+/// What makes velocities at n + 1/2 of the forces at n.
+struct Kick {
+  double step = 0.0;                           ///< s; half at the start
+  double work_before = 0.0, work_after = 0.0;  ///< s, of View
+  bool pushed = false;                         ///< there is an outer force
+};
 
 template <int Dim>
 struct RunData {
@@ -28,6 +33,13 @@ struct RunData {
   fpz::Options update_options;
   double h = 0.0;   ///< smoothing length, m
   double dt = 0.0;  ///< s
+
+  /// Blocks in a piece of a thread's work. Large pieces where there are many: the loops go along all fields at once,
+  /// and the processor fetches ahead only in long pieces.
+  Index chunk_blocks = 16;
+  /// Steps go over the blocks once where they can (sweep.hpp). Only where the body is larger than caches: elsewhere it
+  /// gains nothing.
+  bool in_one_sweep = false;
 
   long long steps = 0;
   bool started = false;  ///< the velocities are half a step ahead
@@ -91,6 +103,18 @@ struct RunData {
     return elastic_stress(bulk.lambda, bulk.mu, stretch(i).strain);
   }
 
+  [[nodiscard]] View<Dim> view_of(const Kick& kick) const {
+    View<Dim> v = view;
+    v.step = kick.step;
+    v.work_before = kick.work_before;
+    v.work_after = kick.work_after;
+    v.pushed = kick.pushed;
+    return v;
+  }
+  void clear_pushes() {
+    for (Field& f : outer_force) std::fill(f.begin(), f.end(), 0.0);
+  }
+
   /// Makes the list `cracked` anew; whenever some have cracked.
   void find_cracked();
 
@@ -104,6 +128,7 @@ struct RunData {
 
  private:
   void place_particles();
+  void choose_order();
   void set_initial_stress();
   void set_constants();
 };

@@ -5,7 +5,7 @@
 namespace fpz::sph::detail {
 
 template <int Dim>
-UpdatedBody<Dim>::UpdatedBody(RunData<Dim>& run) : Body<Dim>(run) {
+UpdatedBody<Dim>::UpdatedBody(RunData<Dim>& run) : Body<Dim>(run, run.passes->force_updated) {
   fields(*this, Allocate{run.particles.padded()});
   rebuild();
 }
@@ -21,7 +21,7 @@ void UpdatedBody<Dim>::start() {
 }
 
 template <int Dim>
-Outcome UpdatedBody<Dim>::advance() {
+Outcome UpdatedBody<Dim>::advance(const Kick& kick) {
   RunData<Dim>& run = this->run_;
   Particles<Dim>& p = run.particles;
   run.for_chunks([&](Index first, Index last) {
@@ -30,14 +30,12 @@ Outcome UpdatedBody<Dim>::advance() {
       p.volume[i] = p.mass[i] * run.view.weight_scale / p.density[i];
     }
   });
-  if (outdated()) rebuild();
-  return this->strain_with([&run](Index first, Index last) { run.passes->strain_updated(run.view, first, last); });
-}
-
-template <int Dim>
-void UpdatedBody<Dim>::force(const View<Dim>& view) {
-  const auto pass = this->run_.passes->force_updated;
-  this->run_.for_chunks([&](Index first, Index last) { pass(view, first, last); });
+  if (outdated()) {
+    rebuild();
+    this->plan_sweep();
+  }
+  return this->strain_with(kick,
+                           [&run](Index first, Index last) { run.passes->strain_updated(run.view, first, last); });
 }
 
 template <int Dim>
@@ -110,6 +108,7 @@ void UpdatedBody<Dim>::load(Reader& archive) {
   transfer_state(archive, *this);
   this->bonds_ = pack<Dim>(this->lists_, this->run_.particles.padded(), Beside::a_number);
   this->point_bonds();
+  this->plan_sweep();
 }
 
 template class UpdatedBody<2>;

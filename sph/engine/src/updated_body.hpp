@@ -12,8 +12,7 @@ class UpdatedBody final : public Body<Dim> {
   explicit UpdatedBody(RunData<Dim>& run);
 
   void start() override;
-  [[nodiscard]] Outcome advance() override;
-  void force(const View<Dim>& view) override;
+  [[nodiscard]] Outcome advance(const Kick& kick) override;
   void save(Writer& archive) const override { transfer_state(archive, *this); }
   void load(Reader& archive) override;
 

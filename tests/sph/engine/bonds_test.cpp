@@ -70,17 +70,6 @@ TEST(Bonds, AnIrregularArrangementIsNot) {
   EXPECT_EQ(part_of(bonds.shared), 0.0);
 }
 
-/// A block with a notch, torn at its ends until cracks have rewritten many rows.
-RunSetup<2> torn_block() {
-  RunSetup<2> s = block(64, 40);
-  s.parameters = concrete();
-  s.options.release_integrity = 0.3;
-  s.arrangement.cuts.push_back({{vec(32e-3, -1e-3), vec(32e-3, 10e-3)}, {false, true}});
-  add_group(s, {"left", {Motion{-1.0, 1e-6}, Motion{0.0, 0.0}}, true}, [](const Vector& x) { return x[0] < 3e-3; });
-  add_group(s, {"right", {Motion{1.0, 1e-6}, std::nullopt}, true}, [](const Vector& x) { return x[0] > 61e-3; });
-  return s;
-}
-
 /// Stencils, neighbours in a row and neighbours anywhere are three ways to the same bits.
 TEST(Bonds, TheFormDoesNotChangeABit) {
   for (const InstructionSet set : {InstructionSet::baseline, InstructionSet::best}) {

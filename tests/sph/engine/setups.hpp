@@ -115,6 +115,17 @@ inline RunSetup<2> torn(const Variant& v) {
   return notched;
 }
 
+/// A block with a notch, torn at its ends until cracks have rewritten many rows.
+inline RunSetup<2> torn_block() {
+  RunSetup<2> s = block(64, 40);
+  s.parameters = concrete();
+  s.options.release_integrity = 0.3;
+  s.arrangement.cuts.push_back({{vec(32e-3, -1e-3), vec(32e-3, 10e-3)}, {false, true}});
+  add_group(s, {"left", {Motion{-1.0, 1e-6}, Motion{0.0, 0.0}}, true}, [](const Vector& x) { return x[0] < 3e-3; });
+  add_group(s, {"right", {Motion{1.0, 1e-6}, std::nullopt}, true}, [](const Vector& x) { return x[0] > 61e-3; });
+  return s;
+}
+
 /// The lowest two rows rest, the highest two of a body of this height (m) follow `top`: groups 0 and 1.
 inline void hold_ends(RunSetup<2>& s, double height, const Group<2>& top) {
   const double rows = 2.0 * s.arrangement.spacing;
