@@ -1,5 +1,6 @@
 // Thickness, size and weight of the body; the spacing against its narrowest part and the process zone.
 #include <cmath>
+#include <optional>
 
 #include "check_scene.hpp"
 #include "fpz/io/plausibility.hpp"
@@ -42,12 +43,38 @@ Body with_possible_slots(Body body) {
   return body;
 }
 
+/// The notch at whose end a neck is that is short beside the notch, where there is one.
+std::optional<std::size_t> notch_at_neck(const std::vector<Notch>& notches, const Ligament& l) {
+  constexpr double part = 0.25;
+  for (std::size_t k = 0; k < notches.size(); ++k) {
+    const Notch& n = notches[k];
+    if ((l.from == n.tip || l.to == n.tip) && l.width < part * (n.tip - n.mouth).norm()) return k;
+  }
+  return std::nullopt;
+}
+
+/// A bridge of less than three rows before the end of a notch: it was meant to end on the surface, or well before it.
+void refuse_bridge(const SceneCheck& c, std::size_t k, const Ligament& l) {
+  const Notch& n = c.scene.body.notches[k];
+  const double length = (n.tip - n.mouth).norm();
+  with(c.root, "notches", [&](const Place& notches) {
+    with(Place(notches, notches.value().items[k]), "length", [&](const Place& p) {
+      c.problem(p, "the notch ends " + brief(l.width) + " m (" + brief(l.width / c.scene.spacing) +
+                       " spacings) before the surface or another notch at " + brief(l.from == n.tip ? l.to : l.from) +
+                       ", and particles cannot show a bridge of less than 3 rows; must reach through it, " +
+                       brief(length + l.width) + ", or leave it 3 rows, with a smaller \"spacing\" or <= " +
+                       brief(length + l.width - 3.0 * c.scene.spacing));
+    });
+  });
+}
+
 /// A neck of a few rows is all surface, and its stress a matter of chance.
 void check_necks(const SceneCheck& c) {
   constexpr double fewest = 3.0, enough = 10.0;
   const Ligament l = smallest_ligament(with_possible_slots(c.scene.body));
   const double rows = l.width / c.scene.spacing;
   if (!std::isfinite(rows) || rows >= enough * (1.0 - 1e-6)) return;
+  if (const auto k = notch_at_neck(c.scene.body.notches, l); k && rows < fewest) return refuse_bridge(c, *k, l);
   with(c.root, "spacing", [&](const Place& p) {
     std::string text = "only " + brief(rows) + " rows of particles across the narrowest part of the body, " +
                        brief(l.width) + " m from " + brief(l.from) + " to " + brief(l.to) + "; ";

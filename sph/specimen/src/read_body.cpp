@@ -10,6 +10,7 @@ namespace {
 constexpr std::array<std::string_view, 5> notch_keys = {"mouth", "length", "angle_deg", "width", "friction_angle_deg"};
 constexpr std::array<std::string_view, 1> widths = {"narrowest"};
 constexpr double mouth_of_surface = 0.5;  ///< spacings below it up to which a mouth is one
+constexpr double end_of_surface = 0.01;   ///< spacings before it up to which an end is meant to be on it
 
 /// A slot narrower than a spacing is a cut: the place of its tip matters more than its width, which particles cannot
 /// follow.
@@ -34,6 +35,14 @@ Notch read_notch(const InputReader& r, const Place& place, double narrowest, dou
   });
   n.tip = n.mouth + length * Point(-std::sin(angle), std::cos(angle));
   return n;
+}
+
+/// A tip that rounding has left before the surface goes through it: nothing holds a bridge that thin.
+void reach_surface(const Body& body, Notch& n, double spacing) {
+  const double least = end_of_surface * spacing;
+  const auto parts = parts_inside(body, n.tip, n.tip + 2.0 * least * along(n));
+  if (parts.empty() || parts.front().first > 0.0 || parts.front().second > least) return;
+  n.tip += (parts.front().second + 1e-6 * spacing) * along(n);
 }
 
 }  // namespace
@@ -68,7 +77,10 @@ void read_body(const InputReader& r, const Place& root, Scene& scene) {
     if (!p.value().is(JsonValue::Kind::array)) return r.problem(p, "expected an array of notches");
     for (const JsonValue& item : p.value().items)
       scene.body.notches.push_back(read_notch(r, Place(p, item), narrowest, scene.spacing));
-    for (Notch& n : scene.body.notches) n.internal = depth(scene.body, n.mouth) > mouth_of_surface * scene.spacing;
+    for (Notch& n : scene.body.notches) {
+      n.internal = depth(scene.body, n.mouth) > mouth_of_surface * scene.spacing;
+      if (r.problems().empty()) reach_surface(scene.body, n, scene.spacing);
+    }
   });
 }
 

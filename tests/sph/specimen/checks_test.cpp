@@ -171,6 +171,38 @@ TEST(Checks, Holes) {
   });
 }
 
+/// What rounding has left just short of what it was meant to reach.
+TEST(Checks, NearlyTouching) {
+  constexpr const char* box = "shear_box_stress.json";
+  const auto joint = [](const char* length) {
+    return Overrides{std::string(R"(notches=[{"mouth":[-0.05,0],"angle_deg":-90,"friction_angle_deg":30,"length":)") +
+                     length + "}]"};
+  };
+  for (const char* length : {"0.1", "0.099999998", "0.0999999", "0.099981", "0.1000000001", "0.100001"}) {
+    const Scene scene = read_scene(scenes / box, joint(length));
+    EXPECT_GE(scene.body.notches[0].tip.x(), 0.05) << length;
+    EXPECT_EQ(said(scenes / box, joint(length)).find("notches"), std::string::npos) << length;
+  }
+  expect_answers({
+      {refused,
+       box,
+       joint("0.0995"),
+       {"notches[0].length: 0.0995: the notch ends 0.0005 m (0.25 spacings) before the surface", "[0.05, 0]",
+        "must reach through it, 0.1, or leave it 3 rows", "<= 0.094"}},
+      {refused,
+       beam,
+       {R"(holes=[{"type":"disc","centre":[0.05,0.07],"radius":0.009999999}])"},
+       {"holes[0]: the hole from [0.04, 0.06] to [0.06, 0.08] leaves a wall of 1e-09 m", "to the surface of the body"}},
+      {refused,
+       beam,
+       {R"(holes=[{"type":"disc","centre":[0.05,0.04],"radius":0.01},
+                  {"type":"disc","centre":[0.07,0.04],"radius":0.00999}])"},
+       {"holes[1]: the hole", "leaves a wall of 1e-05 m (0.0025 spacings) to holes[0]"}},
+  });
+  EXPECT_EQ(said(scenes / beam, {R"(holes=[{"type":"rectangle","low":[0.03,0.06],"high":[0.05,0.08]}])"}).find("holes"),
+            std::string::npos);
+}
+
 TEST(Checks, SizesAndSpacings) {
   expect_answers({
       {refused,
