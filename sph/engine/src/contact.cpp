@@ -14,16 +14,6 @@ namespace {
 constexpr int most_sweeps = 100;
 constexpr double settled = 1e-7;  // change of the forces in a sweep, of the largest: what is left is found a step later
 
-/// Calls f(slot, weight) for the particles of both sides, the weight negative on side 0.
-template <int Dim, class F>
-void for_each_particle(const ContactPoint<Dim>& point, F&& f) {
-  for (std::size_t s = 0; s < 2; ++s) {
-    const FaceSide& side = point.side[s];
-    for (std::size_t k = 0; k < side.particle.size(); ++k)
-      f(side.particle[k], s == 0 ? -side.weight[k] : side.weight[k]);
-  }
-}
-
 }  // namespace
 
 template <int Dim>
@@ -46,7 +36,7 @@ template <int Dim>
 void Contact<Dim>::find_members() {
   std::vector<std::size_t> slots;
   for (const ContactPoint<Dim>& point : points_) {
-    for_each_particle(point, [&](std::size_t i, double) { slots.push_back(i); });
+    for (const FaceSide& side : point.side) slots.insert(slots.end(), side.particle.begin(), side.particle.end());
   }
   sort_unique(slots);
   members_.clear();
@@ -253,14 +243,14 @@ void Contact<Dim>::look(const ContactPoint<Dim>& point, Place& place) const {
   }
   const Vector along = Vector(-point.normal[1], point.normal[0]) + slope;
   const double length = along.norm();
-  place.tangent = along / length;
-  place.normal = Vector(place.tangent[1], -place.tangent[0]);
-  const double apart = place.normal.dot(distance);
+  const Vector tangent = along / length;
+  const Vector normal(tangent[1], -tangent[0]);
+  const double apart = normal.dot(distance);
   place.gap = apart + point.room;
-  place.shift = place.tangent.dot(distance);
+  place.shift = tangent.dot(distance);
   for (Share& s : place.shares) {
-    s.press = (s.weight - place.shift * s.slope / length) * place.normal;
-    s.drag = s.weight * place.tangent + (apart * s.slope / length) * place.normal;
+    s.press = (s.weight - place.shift * s.slope / length) * normal;
+    s.drag = s.weight * tangent + (apart * s.slope / length) * normal;
   }
 }
 
@@ -290,22 +280,19 @@ void Contact<Dim>::book() {
 }
 
 template <int Dim>
-bool Contact<Dim>::prepare() {
+void Contact<Dim>::prepare() {
   look_at_all();
   if (changes_) {
     const bool slid = follow_slip();
     if (meet() || slid) look_at_all();
   }
-  bool touching = false;
   for (std::size_t k = 0; k < points_.size(); ++k) {
     ContactPoint<Dim>& point = points_[k];
     point.slip = point.law.slip_at(places_[k].gap, places_[k].shift, point.slip);
     if (point.of_face) follow(point, places_[k]);
     if (run_.started) find_motion(places_[k]);
-    touching = touching || point.pressure > 0.0;
   }
   changes_ = may_change();
-  return touching;
 }
 
 template <int Dim>

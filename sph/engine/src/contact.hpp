@@ -36,8 +36,8 @@ class Contact {
 
   /// Books the first half of the work of the last forces, after the positions have been moved.
   void book();
-  /// Gaps at n. Whether faces have pressed on each other in the step before.
-  [[nodiscard]] bool prepare();
+  /// Gaps at n.
+  void prepare();
   /// Adds the forces of the step before to RunData::outer_force.
   void push();
   /// The rest of the forces at n, on velocities that the kick over `step` (s) has made; books their work.
@@ -72,7 +72,6 @@ class Contact {
   /// A point as the particles lie at n.
   struct Place {
     std::vector<Share> shares;
-    Vector normal, tangent;
     double gap = 0.0, shift = 0.0;               ///< m
     double normal_give = 0.0, shear_give = 0.0;  ///< m/N: what a newton adds to gap and shift at n + 1
     double pressure = 0.0, shear = 0.0;          ///< N, of the step before

@@ -77,14 +77,14 @@ void Engine<Dim>::begin_sweep() {
 /// Forces at n, velocities to n + 1/2.
 template <int Dim>
 void Engine<Dim>::finish(Kick& kick) {
-  const bool touching = contact && contact->prepare();
+  if (contact) contact->prepare();
   if (!kick.pushed && body->pushes()) {
     run.clear_pushes();
     kick.pushed = true;
   }
   if (kick.pushed) {
     for (const auto& boundary : boundaries) boundary->push();
-    if (touching) contact->push();
+    if (contact && contact->presses()) contact->push();
     body->push();
   }
   body->force(run.view_of(kick));
