@@ -218,6 +218,8 @@ void write_sweeps(std::ostream& out, const Effort& effort) {
       const RunSetup<2> setup = bar(size.columns, size.rows, with_threads(1), layout);
       detail::Engine<2> e(setup, 1e-8);  // s: a tenth of what is stable
       const std::size_t count = e.run.particles.count;
+      e.run.in_one_sweep = true;
+      e.body->plan_sweep();
       const auto step = [&](bool in_one) {
         e.run.in_one_sweep = in_one;
         must(e.step());

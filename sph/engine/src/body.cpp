@@ -12,7 +12,8 @@ void Body<Dim>::point_bonds() {
 
 template <int Dim>
 void Body<Dim>::force(const View<Dim>& view) {
-  run_.for_chunks([&](Index first, Index) {
+  run_.for_chunks([&](Index first, Index last) {
+    if (!sweep_.in_one()) return force_pass_(view, first, last);
     sweep_.finish(first / run_.chunk_blocks, [&](Index from, Index to) { force_pass_(view, from, to); });
   });
 }

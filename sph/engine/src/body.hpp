@@ -31,8 +31,10 @@ class Body {
   void force(const View<Dim>& view);
   /// Whether advance() may change the rows of bonds in this step, and with them forces anywhere.
   [[nodiscard]] virtual bool changes_rows() const { return false; }
-  /// What the order of the blocks follows; when all bonds have been made.
-  void plan_sweep() { sweep_.plan(run_.view, run_.particles.blocks(), run_.chunk_blocks); }
+  /// What the order of the blocks follows in steps in one sweep; when all bonds have been made.
+  void plan_sweep() {
+    if (run_.in_one_sweep) sweep_.plan(run_.view, run_.particles.blocks(), run_.chunk_blocks);
+  }
   [[nodiscard]] Sweep<Dim>& sweep() { return sweep_; }
   /// Stores strains, stresses and rotations of n where the last step has not.
   virtual void show() {}

@@ -39,7 +39,7 @@ class Sweep {
   /// The chunk has its strains: calls force(first, last) for blocks that have all they need now. On any thread.
   template <class Force>
   void strained(Index chunk, Force&& force);
-  /// Calls force(first, last) for the blocks of a chunk that have not had theirs, after all strains.
+  /// Calls force(first, last) for the blocks of a chunk that have not had theirs, after all strains; in one sweep.
   template <class Force>
   void finish(Index chunk, Force&& force) const;
 
@@ -98,7 +98,7 @@ template <int Dim>
 template <class Force>
 void Sweep<Dim>::finish(Index chunk, Force&& force) const {
   const Index begin = chunk * chunk_blocks_, end = end_of(chunk);
-  if (!in_one_ || early_[static_cast<std::size_t>(chunk)] != step_) {
+  if (early_[static_cast<std::size_t>(chunk)] != step_) {
     force(begin, end);
     return;
   }
